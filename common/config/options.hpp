@@ -1,0 +1,115 @@
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <functional>
+#include <iosfwd>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace limbcast::config {
+
+/// Wrong usage or input: the program ends with exit code 2 and this one line.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Allowed values of a number; both ends belong to it.
+template <class T>
+struct Range {
+  T min = std::numeric_limits<T>::lowest();
+  T max = std::numeric_limits<T>::max();
+};
+
+/// The options of one module: a section of the configuration file and the same keys on the command line.
+///
+/// Keys are written with hyphens ("max-depth-m"); underscores are accepted too. Each `add` binds a key to a
+/// variable whose present value is the default, and names its unit ("m", "px", "" for none).
+class Section {
+ public:
+  explicit Section(std::string name);  ///< e.g. "pose_fitter"
+
+  const std::string& name() const { return name_; }
+  void add(const std::string& key, double& target, const std::string& unit, const std::string& help,
+           Range<double> range = {});
+  void add(const std::string& key, float& target, const std::string& unit, const std::string& help,
+           Range<float> range = {});
+  void add(const std::string& key, int& target, const std::string& unit, const std::string& help,
+           Range<int> range = {});
+  void add(const std::string& key, std::string& target, const std::string& help);
+  /// true/false; on the command line the bare key means true.
+  void add(const std::string& key, bool& target, const std::string& help);
+  void add_choice(const std::string& key, std::string& target, const std::vector<std::string>& choices,
+                  const std::string& help);
+
+ private:
+  friend class Parser;
+  struct Entry {
+    std::string key, unit, help, default_text, allowed_text;
+    bool is_flag = false;
+    /// Stores the text; throws std::invalid_argument where it is no allowed value.
+    std::function<void(const std::string& text)> assign;
+  };
+  template <class T>
+  void add_number(const std::string& key, T& target, const std::string& unit, const std::string& help,
+                  Range<T> range);
+
+  std::string name_;
+  std::vector<Entry> entries_;
+};
+
+/// What every program understands.
+struct CommonOptions {
+  std::string lcm_url;             ///< empty: LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0
+  std::string config_file;         ///< empty: none
+  std::string log_level = "info";  ///< error, warning, info, debug
+};
+
+/// Reads command line, configuration file and defaults, in this order of precedence.
+class Parser {
+ public:
+  /// `purpose`: one line for --help.
+  Parser(std::string program, std::string purpose);
+
+  /// A section whose keys are understood with the prefix ("--pose_fitter.method") and, where `own`, without.
+  void add(Section& section, bool own = true);
+  /// A required ("IN.log") or optional ("[FOLDER]") argument without a key.
+  void add_positional(const std::string& name, std::string& target, const std::string& help);
+
+  /// Fills all targets. Prints and returns false after --help or --version (then exit with 0).
+  /// Throws UsageError naming file, key, value and allowed range.
+  bool parse(int argc, const char* const* argv);
+  bool parse(int argc, const char* const* argv, std::ostream& out);
+
+  const CommonOptions& common() const { return common_; }
+
+ private:
+  struct Positional {
+    std::string name, help;
+    std::string* target;
+    bool required;
+  };
+  struct Bound {
+    Section* section;
+    bool own;
+  };
+  void assign(const std::string& where, const std::string& section, const std::string& key,
+              const std::string& text, bool from_file);
+  void read_config_file(const std::string& path, const std::vector<std::string>& given);
+  void print_help(std::ostream& out) const;
+
+  std::string program_, purpose_;
+  Section common_section_{""};
+  CommonOptions common_;
+  std::vector<Bound> sections_;
+  std::vector<Positional> positionals_;
+};
+
+/// Runs `body` and turns its end into an exit code: 0 done, 1 failed at run time, 2 wrong usage or input;
+/// an exception prints one line "program: what" on stderr.
+int run_program(const std::string& program, const std::function<void()>& body);
+
+}  // namespace limbcast::config
