@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "common/camera/pinhole_camera.hpp"
+
+namespace limbcast {
+
+/// One real lens: pinhole and OpenCV's distortion coefficients (k1 k2 p1 p2 k3 ..., 0, 4, 5, 8, 12 or 14 of
+/// them; none = no distortion).
+struct LensCalibration {
+  PinholeCamera camera;
+  std::vector<double> distortion;
+};
+
+/// How the sensor stands on the robot; what is not known is not set.
+struct Mounting {
+  std::optional<Eigen::Vector3d> down;    ///< unit gravity vector in the (rectified left) camera's frame
+  std::optional<double> sensor_height_m;  ///< of the camera over the ground
+};
+
+/// Rotations and projections of a rectified pair, names as cv::stereoRectify gives them.
+struct Rectification {
+  Eigen::Matrix3d R1, R2;
+  Eigen::Matrix<double, 3, 4> P1, P2;
+};
+
+/// A stereo camera as cv::stereoCalibrate describes it: p_right = R * p_left + T [m].
+struct StereoCalibration {
+  LensCalibration left, right;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d T = Eigen::Vector3d::Zero();
+  std::optional<Rectification> rectification;  ///< where the file carries one; else it is computed
+  Mounting mounting;
+};
+
+/// A depth camera whose depth image is registered to its colour image.
+struct DepthCalibration {
+  LensCalibration color;
+  double depth_scale_m = 0.001;  ///< metres for one unit of the 16-bit depth image
+  Mounting mounting;
+};
+
+}  // namespace limbcast
