@@ -8,8 +8,8 @@
 
 namespace limbcast {
 
-/// One real lens: pinhole and OpenCV's distortion coefficients (k1 k2 p1 p2 k3 ..., 0, 4, 5, 8, 12 or 14 of
-/// them; none = no distortion).
+/// One real lens: pinhole and OpenCV's distortion coefficients (k1 k2 p1 p2 k3 ..., 0, 4, 5, 8, 12
+/// or 14 of them; none = no distortion).
 struct LensCalibration {
   PinholeCamera camera;
   std::vector<double> distortion;
@@ -17,7 +17,8 @@ struct LensCalibration {
 
 /// How the sensor stands on the robot; what is not known is not set.
 struct Mounting {
-  std::optional<Eigen::Vector3d> down;    ///< unit gravity vector in the (rectified left) camera's frame
+  std::optional<Eigen::Vector3d>
+      down;  ///< unit gravity vector in the (rectified left) camera's frame
   std::optional<double> sensor_height_m;  ///< of the camera over the ground
 };
 

@@ -6,7 +6,8 @@
 
 namespace limbcast {
 
-/// One pair as the camera took it (not yet rectified unless the calibration says so). 8-bit BGR or grey.
+/// One pair as the camera took it (not yet rectified unless the calibration says so). 8-bit BGR or
+/// grey.
 struct StereoImages {
   Stamp stamp;
   cv::Mat left, right;

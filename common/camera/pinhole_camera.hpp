@@ -4,11 +4,11 @@
 
 namespace limbcast {
 
-/// An ideal (rectified, undistorted) camera: pixel = (fx * x / z + cx, fy * y / z + cy), pixel centres at
-/// whole numbers. Frame: x right, y down, z forward, metres.
+/// An ideal (rectified, undistorted) camera: pixel = (fx * x / z + cx, fy * y / z + cy), pixel
+/// centres at whole numbers. Frame: x right, y down, z forward, metres.
 struct PinholeCamera {
-  int width = 0;   ///< [px]
-  int height = 0;  ///< [px]
+  int width = 0;              ///< [px]
+  int height = 0;             ///< [px]
   double fx = 0.0, fy = 0.0;  ///< focal lengths [px]
   double cx = 0.0, cy = 0.0;  ///< principal point [px]
 

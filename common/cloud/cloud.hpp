@@ -52,14 +52,14 @@ struct Bgr {
 
 /// Points that one sensor saw at one instant, in Stamp::frame (x right, y down, z forward).
 ///
-/// Organised by a camera (`camera` is set): point (u, v) stands at index v * width + u and lies on the ray
-/// of pixel (u, v); a hole has z = 0 (and x = y = 0). Unorganised: height = 1, no holes.
+/// Organised by a camera (`camera` is set): point (u, v) stands at index v * width + u and lies on
+/// the ray of pixel (u, v); a hole has z = 0 (and x = y = 0). Unorganised: height = 1, no holes.
 struct Cloud {
   Stamp stamp;
   int width = 0, height = 0;
   std::optional<PinholeCamera> camera;
   std::vector<Eigen::Vector3f> points_m;  ///< width * height of them; finite
-  std::vector<Bgr> colors;                ///< empty, or one for each point (holes of a camera's cloud too)
+  std::vector<Bgr> colors;  ///< empty, or one for each point (holes of a camera's cloud too)
 
   bool organized() const { return camera.has_value(); }
   bool is_hole(std::size_t index) const { return camera && points_m[index].z() <= 0.0F; }

@@ -17,7 +17,7 @@ enum class SegmentFilter : std::int8_t {
   kTooFewPoints = 1,   ///< figure: points
   kTooManyPoints = 2,  ///< figure: points
   kSeedNotHead = 3,    ///< figure: height of the seed over the centroid [m]
-  kTooSparse = 4,      ///< figure: points per square metre of visible surface, relative to the sensor's
+  kTooSparse = 4,  ///< figure: points per square metre of visible surface, relative to the sensor's
   kSamePerson = 5,     ///< figure: share of the cluster that a better seed holds too
   kNotHeadShaped = 6,  ///< figure: score of the head classifier
 };
@@ -29,30 +29,32 @@ enum class PixelLabel : std::uint8_t {
   kOther = 2,    ///< measured, not this person: behind it or in front of it, the depth says which
 };
 
-/// The part of the sensor's lattice around a person: what belongs to it, what the sensor saw beside,
-/// behind and in front. `camera` is the crop's own (principal point moved), `origin_*` its place in the
-/// full image of `full_width` x `full_height`, so that a border of the crop is told from one of the image.
+/// The part of the sensor's lattice around a person: what belongs to it, what the sensor saw
+/// beside, behind and in front. `camera` is the crop's own (principal point moved), `origin_*` its
+/// place in the full image of `full_width` x `full_height`, so that a border of the crop is told
+/// from one of the image.
 struct RangeImage {
   PinholeCamera camera;
-  int origin_u = 0, origin_v = 0;         ///< [px]
-  int full_width = 0, full_height = 0;    ///< [px]
-  std::vector<float> depth_m;             ///< camera.width * camera.height, 0 = hole
-  std::vector<PixelLabel> labels;         ///< same size
-  std::vector<std::uint8_t> is_skin;      ///< same size, 1 = skin-coloured; empty without colour
-  /// Rotation from the range image's optical frame to Stamp::frame. Identity for a camera's cloud; for an
-  /// unorganised one (laser) the image is rendered from the sensor's origin towards the person.
+  int origin_u = 0, origin_v = 0;       ///< [px]
+  int full_width = 0, full_height = 0;  ///< [px]
+  std::vector<float> depth_m;           ///< camera.width * camera.height, 0 = hole
+  std::vector<PixelLabel> labels;       ///< same size
+  std::vector<std::uint8_t> is_skin;    ///< same size, 1 = skin-coloured; empty without colour
+  /// Rotation from the range image's optical frame to Stamp::frame. Identity for a camera's cloud;
+  /// for an unorganised one (laser) the image is rendered from the sensor's origin towards the
+  /// person.
   Eigen::Matrix3f frame_from_image = Eigen::Matrix3f::Identity();
 };
 
 /// One person candidate: a cluster of points grown from a seed.
 struct Segment {
-  std::int32_t id = 0;  ///< number within the frame
+  std::int32_t id = 0;                               ///< number within the frame
   Eigen::Vector3f seed_m = Eigen::Vector3f::Zero();  ///< where growing started, on the surface
   SeedKind seed_kind = SeedKind::kSkin;
   float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head
   SegmentFilter rejected_by = SegmentFilter::kNone;
-  float filter_figure = 0.0F;  ///< what the rejecting filter measured
-  float filter_limit = 0.0F;   ///< against what
+  float filter_figure = 0.0F;             ///< what the rejecting filter measured
+  float filter_limit = 0.0F;              ///< against what
   std::vector<Eigen::Vector3f> points_m;  ///< the cluster, on the surface the sensor saw
   std::vector<std::uint8_t> is_skin;      ///< one for each point, or empty without colour
   std::optional<RangeImage> range_image;

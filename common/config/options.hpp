@@ -24,10 +24,12 @@ struct Range {
   T max = std::numeric_limits<T>::max();
 };
 
-/// The options of one module: a section of the configuration file and the same keys on the command line.
+/// The options of one module: a section of the configuration file and the same keys on the command
+/// line.
 ///
-/// Keys are written with hyphens ("max-depth-m"); underscores are accepted too. Each `add` binds a key to a
-/// variable whose present value is the default, and names its unit ("m", "px", "" for none).
+/// Keys are written with hyphens ("max-depth-m"); underscores are accepted too. Each `add` binds a
+/// key to a variable whose present value is the default, and names its unit ("m", "px", "" for
+/// none).
 class Section {
  public:
   explicit Section(std::string name);  ///< e.g. "pose_fitter"
@@ -42,8 +44,8 @@ class Section {
   void add(const std::string& key, std::string& target, const std::string& help);
   /// true/false; on the command line the bare key means true.
   void add(const std::string& key, bool& target, const std::string& help);
-  void add_choice(const std::string& key, std::string& target, const std::vector<std::string>& choices,
-                  const std::string& help);
+  void add_choice(const std::string& key, std::string& target,
+                  const std::vector<std::string>& choices, const std::string& help);
 
  private:
   friend class Parser;
@@ -54,8 +56,8 @@ class Section {
     std::function<void(const std::string& text)> assign;
   };
   template <class T>
-  void add_number(const std::string& key, T& target, const std::string& unit, const std::string& help,
-                  Range<T> range);
+  void add_number(const std::string& key, T& target, const std::string& unit,
+                  const std::string& help, Range<T> range);
 
   std::string name_;
   std::vector<Entry> entries_;
@@ -74,7 +76,8 @@ class Parser {
   /// `purpose`: one line for --help.
   Parser(std::string program, std::string purpose);
 
-  /// A section whose keys are understood with the prefix ("--pose_fitter.method") and, where `own`, without.
+  /// A section whose keys are understood with the prefix ("--pose_fitter.method") and, where `own`,
+  /// without.
   void add(Section& section, bool own = true);
   /// A required ("IN.log") or optional ("[FOLDER]") argument without a key.
   void add_positional(const std::string& name, std::string& target, const std::string& help);
@@ -108,8 +111,8 @@ class Parser {
   std::vector<Positional> positionals_;
 };
 
-/// Runs `body` and turns its end into an exit code: 0 done, 1 failed at run time, 2 wrong usage or input;
-/// an exception prints one line "program: what" on stderr.
+/// Runs `body` and turns its end into an exit code: 0 done, 1 failed at run time, 2 wrong usage or
+/// input; an exception prints one line "program: what" on stderr.
 int run_program(const std::string& program, const std::function<void()>& body);
 
 }  // namespace limbcast::config

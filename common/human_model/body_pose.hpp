@@ -16,8 +16,9 @@ struct JointEstimate {
   bool valid = false;  ///< false: left out (not seen, no valid fit); the rest is then meaningless
   Eigen::Vector3f position_m = Eigen::Vector3f::Zero();
   float confidence = 0.0F;  ///< 0 to 1: probability that the position is within 10 cm
-  float sigma_m = 0.0F;     ///< standard deviation of the position along its worst axis [m], 0 = not told
-  bool predicted = false;   ///< true: not measured in this frame (tracker)
+  float sigma_m =
+      0.0F;  ///< standard deviation of the position along its worst axis [m], 0 = not told
+  bool predicted = false;  ///< true: not measured in this frame (tracker)
 };
 
 /// An arm that points. Directions are unit vectors in Stamp::frame.
@@ -35,16 +36,19 @@ inline constexpr int kDegreesOfFreedom = 28;
 
 /// Pose of one person.
 struct BodyPose {
-  std::int32_t id = 0;          ///< BODY_POSES: the segment's; TRACKED_POSES: the person's, over time
+  std::int32_t id = 0;  ///< BODY_POSES: the segment's; TRACKED_POSES: the person's, over time
   std::array<JointEstimate, kJointCount> joints;
-  std::array<float, kJointCount> link_lengths_m{};  ///< link i of Table I ends at its joint; 0 = left out
+  std::array<float, kJointCount>
+      link_lengths_m{};  ///< link i of Table I ends at its joint; 0 = left out
   std::array<float, kDegreesOfFreedom> angles_rad{};  ///< order: human model file; NaN = left out
-  float confidence = 0.0F;      ///< 0 to 1: probability that this is a person in this pose
-  float error = 0.0F;           ///< Eq. 1 (paper), or the cost per point (refined)
-  std::array<float, kErrorTermCount> error_terms{};  ///< Eq. 1: distance, missing links, unused points, density
-  std::int32_t typical_pose = -1;  ///< index in the model file of the typical pose that won, -1 = none
-  float rotation_deg = 0.0F;       ///< rotation about gravity that won
-  float scale = 1.0F;              ///< s of Eq. 2
+  float confidence = 0.0F;  ///< 0 to 1: probability that this is a person in this pose
+  float error = 0.0F;       ///< Eq. 1 (paper), or the cost per point (refined)
+  std::array<float, kErrorTermCount>
+      error_terms{};  ///< Eq. 1: distance, missing links, unused points, density
+  std::int32_t typical_pose =
+      -1;                     ///< index in the model file of the typical pose that won, -1 = none
+  float rotation_deg = 0.0F;  ///< rotation about gravity that won
+  float scale = 1.0F;         ///< s of Eq. 2
   std::vector<Pointing> pointing;  ///< none, one or both arms, the most certain first
 
   const JointEstimate& operator[](Joint joint) const { return joints[index(joint)]; }

@@ -8,17 +8,30 @@ namespace limbcast {
 
 /// The 16 link end points of the paper's model (Table I), the person's own left and right.
 enum class Joint : int {
-  kHead, kNeck, kChest, kPelvis,
-  kShoulderLeft, kShoulderRight, kElbowLeft, kElbowRight, kWristLeft, kWristRight,
-  kHipLeft, kHipRight, kKneeLeft, kKneeRight, kAnkleLeft, kAnkleRight,
+  kHead,
+  kNeck,
+  kChest,
+  kPelvis,
+  kShoulderLeft,
+  kShoulderRight,
+  kElbowLeft,
+  kElbowRight,
+  kWristLeft,
+  kWristRight,
+  kHipLeft,
+  kHipRight,
+  kKneeLeft,
+  kKneeRight,
+  kAnkleLeft,
+  kAnkleRight,
 };
 inline constexpr int kJointCount = 16;
 
 /// Names as in JSON, ground truth and lcm-spy; index is the value of Joint.
 inline constexpr std::array<std::string_view, kJointCount> kJointNames = {
-    "head", "neck", "chest", "pelvis",
-    "shoulder_left", "shoulder_right", "elbow_left", "elbow_right", "wrist_left", "wrist_right",
-    "hip_left", "hip_right", "knee_left", "knee_right", "ankle_left", "ankle_right"};
+    "head",       "neck",        "chest",      "pelvis",      "shoulder_left", "shoulder_right",
+    "elbow_left", "elbow_right", "wrist_left", "wrist_right", "hip_left",      "hip_right",
+    "knee_left",  "knee_right",  "ankle_left", "ankle_right"};
 
 enum class Side : int { kLeft = 0, kRight = 1 };
 

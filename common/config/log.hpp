@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace limbcast::config {
+
+enum class LogLevel { kError = 0, kWarning = 1, kInfo = 2, kDebug = 3 };
+
+/// Names the program in each line and says what is written. Call once, before threads start.
+void configure_log(const std::string& module, const std::string& level);
+
+/// One line on stderr: "module LEVEL text". Safe to call from any thread.
+void log(LogLevel level, const std::string& text);
+
+}  // namespace limbcast::config

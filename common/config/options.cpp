@@ -1,0 +1,309 @@
+#include "common/config/options.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "common/config/version.hpp"
+
+namespace limbcast::config {
+namespace {
+
+namespace po = boost::program_options;
+
+/// Sections a robot's configuration file may hold; a program reads its own and checks the names of
+/// the rest.
+constexpr std::array<std::string_view, 13> kModuleNames = {
+    "stereo_camera", "depth_camera", "laser_scanner", "reconstructor", "segmenter",
+    "pose_fitter",   "tracker",      "viewer",        "replay",        "export_poses",
+    "evaluate",      "simulate",     "status"};
+
+std::string with_hyphens(std::string key) {
+  std::replace(key.begin(), key.end(), '_', '-');
+  return key;
+}
+
+/// "--Section.some_key=v" -> "--Section.some-key=v": the section keeps its underscores.
+std::string normalized_argument(const std::string& argument) {
+  if (argument.rfind("--", 0) != 0) return argument;
+  const std::size_t value_at = std::min(argument.find('='), argument.size());
+  const std::size_t dot = argument.substr(0, value_at).rfind('.');
+  const std::size_t key_at = dot == std::string::npos ? 2 : dot + 1;
+  return argument.substr(0, key_at) + with_hyphens(argument.substr(key_at, value_at - key_at)) +
+         argument.substr(value_at);
+}
+
+template <class T>
+T parsed_number(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  T value{};
+  in >> value;
+  if (in.fail() || !(in >> std::ws).eof()) throw std::invalid_argument(text);
+  return value;
+}
+
+template <class T>
+std::string number_text(T value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << value;
+  return out.str();
+}
+
+template <class T>
+std::string range_text(const Range<T>& range) {
+  const bool has_min = range.min != std::numeric_limits<T>::lowest();
+  const bool has_max = range.max != std::numeric_limits<T>::max();
+  if (has_min && has_max) return number_text(range.min) + " to " + number_text(range.max);
+  if (has_min) return "at least " + number_text(range.min);
+  if (has_max) return "at most " + number_text(range.max);
+  return "a number";
+}
+
+bool parsed_bool(const std::string& text) {
+  if (text == "true" || text == "1" || text == "yes" || text == "on") return true;
+  if (text == "false" || text == "0" || text == "no" || text == "off") return false;
+  throw std::invalid_argument(text);
+}
+
+}  // namespace
+
+Section::Section(std::string name) : name_(std::move(name)) {}
+
+template <class T>
+void Section::add_number(const std::string& key, T& target, const std::string& unit,
+                         const std::string& help, Range<T> range) {
+  Entry entry{key, unit, help, number_text(target), range_text(range), false, {}};
+  entry.assign = [&target, range](const std::string& text) {
+    const T value = parsed_number<T>(text);
+    if (!(value >= range.min && value <= range.max)) throw std::invalid_argument(text);
+    target = value;
+  };
+  entries_.push_back(std::move(entry));
+}
+
+void Section::add(const std::string& key, double& target, const std::string& unit,
+                  const std::string& help, Range<double> range) {
+  add_number(key, target, unit, help, range);
+}
+
+void Section::add(const std::string& key, float& target, const std::string& unit,
+                  const std::string& help, Range<float> range) {
+  add_number(key, target, unit, help, range);
+}
+
+void Section::add(const std::string& key, int& target, const std::string& unit,
+                  const std::string& help, Range<int> range) {
+  add_number(key, target, unit, help, range);
+}
+
+void Section::add(const std::string& key, std::string& target, const std::string& help) {
+  entries_.push_back({key, "", help, target, "text", false,
+                      [&target](const std::string& text) { target = text; }});
+}
+
+void Section::add(const std::string& key, bool& target, const std::string& help) {
+  entries_.push_back({key, "", help, target ? "true" : "false", "true or false", true,
+                      [&target](const std::string& text) { target = parsed_bool(text); }});
+}
+
+void Section::add_choice(const std::string& key, std::string& target,
+                         const std::vector<std::string>& choices, const std::string& help) {
+  std::string allowed;
+  for (const std::string& choice : choices) allowed += (allowed.empty() ? "" : ", ") + choice;
+  entries_.push_back({key, "", help, target, "one of " + allowed, false,
+                      [&target, choices](const std::string& text) {
+                        if (std::find(choices.begin(), choices.end(), text) == choices.end())
+                          throw std::invalid_argument(text);
+                        target = text;
+                      }});
+}
+
+Parser::Parser(std::string program, std::string purpose)
+    : program_(std::move(program)), purpose_(std::move(purpose)) {
+  common_section_.add("lcm-url", common_.lcm_url,
+                      "LCM URL; default: $LCM_DEFAULT_URL, else this host only (ttl=0)");
+  common_section_.add("config", common_.config_file, "configuration file, a section a module");
+  common_section_.add_choice("log-level", common_.log_level, {"error", "warning", "info", "debug"},
+                             "what is written to stderr");
+  sections_.push_back({&common_section_, true});
+}
+
+void Parser::add(Section& section, bool own) { sections_.push_back({&section, own}); }
+
+void Parser::add_positional(const std::string& name, std::string& target, const std::string& help) {
+  positionals_.push_back({name, help, &target, name.front() != '['});
+}
+
+bool Parser::parse(int argc, const char* const* argv) { return parse(argc, argv, std::cout); }
+
+bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
+  po::options_description all;
+  all.add_options()("help", "")("version", "")("argument", po::value<std::vector<std::string>>());
+  const auto declare = [&all](const std::string& name, bool is_flag) {
+    auto* value = po::value<std::string>();
+    if (is_flag) value->implicit_value("true", "true");
+    all.add_options()(name.c_str(), value, "");
+  };
+  for (const Bound& bound : sections_) {
+    for (const Section::Entry& entry : bound.section->entries_) {
+      if (bound.own) declare(entry.key, entry.is_flag);
+      if (!bound.section->name().empty())
+        declare(bound.section->name() + "." + entry.key, entry.is_flag);
+    }
+  }
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) arguments.push_back(normalized_argument(argv[i]));
+  po::positional_options_description positional;
+  positional.add("argument", -1);
+  po::parsed_options parsed(&all);
+  try {
+    // No guessing from abbreviations: an option added later must not change what an old script
+    // means.
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    parsed =
+        po::command_line_parser(arguments).options(all).positional(positional).style(style).run();
+  } catch (const po::error& error) {
+    throw UsageError(std::string("command line: ") + error.what() + "; see " + program_ +
+                     " --help");
+  }
+  const auto given = [&parsed](const std::string& name) {
+    return std::any_of(parsed.options.begin(), parsed.options.end(),
+                       [&name](const po::option& option) { return option.string_key == name; });
+  };
+  if (given("help")) return print_help(out), false;
+  if (given("version")) return out << program_ << ' ' << kVersion << '\n', false;
+
+  std::vector<std::string> on_command_line;
+  std::vector<std::string> positional_values;
+  for (const po::option& option : parsed.options) {
+    if (option.string_key == "argument") {
+      positional_values.insert(positional_values.end(), option.value.begin(), option.value.end());
+      continue;
+    }
+    const std::size_t dot = option.string_key.rfind('.');
+    const std::string section = dot == std::string::npos ? "" : option.string_key.substr(0, dot);
+    const std::string key =
+        dot == std::string::npos ? option.string_key : option.string_key.substr(dot + 1);
+    assign("command line", section, key, option.value.empty() ? "true" : option.value.front(),
+           false);
+    on_command_line.push_back(option.string_key);
+  }
+  if (positional_values.size() > positionals_.size())
+    throw UsageError("command line: unexpected argument '" +
+                     positional_values[positionals_.size()] + "'; see " + program_ + " --help");
+  for (std::size_t i = 0; i < positionals_.size(); ++i) {
+    if (i < positional_values.size())
+      *positionals_[i].target = positional_values[i];
+    else if (positionals_[i].required)
+      throw UsageError("command line: " + positionals_[i].name + " is missing; see " + program_ +
+                       " --help");
+  }
+  if (!common_.config_file.empty()) read_config_file(common_.config_file, on_command_line);
+  return true;
+}
+
+void Parser::assign(const std::string& where, const std::string& section, const std::string& key,
+                    const std::string& text, bool from_file) {
+  bool found = false;
+  for (const Bound& bound : sections_) {
+    const bool addressed =
+        bound.section->name() == section || (section.empty() && bound.own && !from_file);
+    if (!addressed) continue;
+    for (const Section::Entry& entry : bound.section->entries_) {
+      if (entry.key != key) continue;
+      try {
+        entry.assign(text);
+        found = true;
+      } catch (const std::invalid_argument&) {
+        throw UsageError(where + ": '" + (section.empty() ? "" : section + ".") + key + "' is '" +
+                         text + "', must be " + entry.allowed_text +
+                         (entry.unit.empty() ? "" : " [" + entry.unit + "]"));
+      }
+    }
+  }
+  if (!found)
+    throw UsageError(where + ": unknown key '" + key + "'" +
+                     (section.empty() ? "" : " in section [" + section + "]") + "; see " +
+                     program_ + " --help");
+}
+
+void Parser::read_config_file(const std::string& path, const std::vector<std::string>& given) {
+  std::ifstream in(path);
+  if (!in) throw UsageError(path + ": cannot be read; give an existing file to --config");
+  std::optional<po::parsed_options> parsed;
+  try {
+    parsed = po::parse_config_file(in, po::options_description(), /*allow_unregistered=*/true);
+  } catch (const po::error& error) {
+    throw UsageError(path + ": " + error.what());
+  }
+  for (const po::option& option : parsed->options) {
+    const std::size_t dot = option.string_key.rfind('.');
+    const std::string section = dot == std::string::npos ? "" : option.string_key.substr(0, dot);
+    const std::string key = with_hyphens(
+        dot == std::string::npos ? option.string_key : option.string_key.substr(dot + 1));
+    const bool mine =
+        std::any_of(sections_.begin(), sections_.end(),
+                    [&section](const Bound& bound) { return bound.section->name() == section; });
+    if (!mine) {
+      if (std::find(kModuleNames.begin(), kModuleNames.end(), section) == kModuleNames.end())
+        throw UsageError(path + ": unknown section [" + section +
+                         "]; sections are named like modules");
+      continue;
+    }
+    const std::string full_key = section.empty() ? key : section + "." + key;
+    const auto overridden = [&](const std::string& name) {
+      return std::find(given.begin(), given.end(), name) != given.end();
+    };
+    if (overridden(full_key)) continue;
+    const bool own = std::any_of(
+        sections_.begin(), sections_.end(),
+        [&section](const Bound& bound) { return bound.own && bound.section->name() == section; });
+    if (own && overridden(key)) continue;
+    assign(path, section, key, option.value.empty() ? "" : option.value.front(), true);
+  }
+}
+
+void Parser::print_help(std::ostream& out) const {
+  out << program_ << ": " << purpose_ << "\n\nUsage: " << program_;
+  for (const Positional& positional : positionals_) out << ' ' << positional.name;
+  out << " [options]\n";
+  for (const Positional& positional : positionals_)
+    out << "  " << positional.name << "  " << positional.help << '\n';
+  for (const Bound& bound : sections_) {
+    const std::string& name = bound.section->name();
+    out << '\n'
+        << (name.empty() ? std::string("Common options") : "Section [" + name + "]") << ":\n";
+    for (const Section::Entry& entry : bound.section->entries_) {
+      out << "  --" << (bound.own || name.empty() ? "" : name + ".") << entry.key
+          << (entry.is_flag ? "" : " VALUE") << "\n        " << entry.help;
+      if (!entry.unit.empty()) out << " [" << entry.unit << ']';
+      out << " (" << entry.allowed_text;
+      if (!entry.default_text.empty()) out << ", default " << entry.default_text;
+      out << ")\n";
+    }
+  }
+  out << "  --help, --version\n";
+}
+
+int run_program(const std::string& program, const std::function<void()>& body) {
+  constexpr int kFailedAtRunTime = 1;
+  constexpr int kWrongUsage = 2;
+  try {
+    body();
+    return 0;
+  } catch (const UsageError& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return kWrongUsage;
+  } catch (const std::exception& error) {
+    std::cerr << program << ": " << error.what() << '\n';
+    return kFailedAtRunTime;
+  }
+}
+
+}  // namespace limbcast::config
