@@ -1,0 +1,236 @@
+#include "common/camera/calibration_io.hpp"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "common/camera/yaml_reader.hpp"
+#include "common/input_error.hpp"
+
+namespace limbcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Above this a baseline is taken for one in millimetres or board squares [m]. No stereo head for
+/// people has one.
+constexpr double kLargestBaseline_m = 5.0;
+/// Rounding to 4 digits, as some tools write, keeps a rotation within this of orthonormal.
+constexpr double kRotationTolerance = 1e-3;
+constexpr int kLargestImage_px = 16384;
+
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+int read_size(const YamlReader& yaml, const std::string& key) {
+  const int size_px = yaml.integer(key);
+  if (size_px <= 0 || size_px > kLargestImage_px) {
+    yaml.fail(key, "is " + std::to_string(size_px),
+              "must be 1 to " + std::to_string(kLargestImage_px) + " px");
+  }
+  return size_px;
+}
+
+PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, int width, int height,
+                              const Eigen::Matrix3d& K) {
+  if (K(0, 0) <= 0.0 || K(1, 1) <= 0.0) {
+    yaml.fail(key, "has focal lengths " + text_of(K(0, 0)) + " and " + text_of(K(1, 1)) + " px",
+              "both must be > 0");
+  }
+  if (K(0, 2) < 0.0 || K(0, 2) >= width || K(1, 2) < 0.0 || K(1, 2) >= height) {
+    yaml.fail(key,
+              "has its principal point (" + text_of(K(0, 2)) + ", " + text_of(K(1, 2)) +
+                  ") outside the image of " + std::to_string(width) + "x" + std::to_string(height),
+              "give the calibration of this image size");
+  }
+  return {width, height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
+}
+
+std::vector<double> read_distortion(const YamlReader& yaml, const std::string& key) {
+  std::vector<double> coefficients = yaml.numbers(key);
+  for (const std::size_t count : {0U, 4U, 5U, 8U, 12U, 14U}) {
+    if (coefficients.size() == count) return coefficients;
+  }
+  yaml.fail(key, "has " + std::to_string(coefficients.size()) + " coefficients",
+            "must be 0, 4, 5, 8, 12 or 14 (fisheye models are not supported)");
+}
+
+LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
+                          const std::string& distortion_key) {
+  const int width = read_size(yaml, "image_width");
+  const int height = read_size(yaml, "image_height");
+  LensCalibration lens;
+  lens.camera = checked_pinhole(yaml, matrix_key, width, height,
+                                Eigen::Matrix3d(yaml.matrix(matrix_key, 3, 3)));
+  if (yaml.has(distortion_key)) lens.distortion = read_distortion(yaml, distortion_key);
+  return lens;
+}
+
+Eigen::Matrix3d read_rotation(const YamlReader& yaml, const std::string& key) {
+  const Eigen::Matrix3d R = yaml.matrix(key, 3, 3);
+  const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (deviation > kRotationTolerance || R.determinant() < 0.0) {
+    yaml.fail(key, "is not a rotation (off by " + text_of(deviation) + ")", "calibrate again");
+  }
+  return R;
+}
+
+Mounting read_mounting(const YamlReader& yaml) {
+  Mounting mounting;
+  if (yaml.has("down")) {
+    const Eigen::Vector3d down = yaml.matrix("down", 3, 1);
+    // A unit vector that was written with few digits still has about this length.
+    if (std::abs(down.norm() - 1.0) > 0.05) {
+      yaml.fail("down", "has length " + text_of(down.norm()), "must be a unit vector");
+    }
+    mounting.down = down.normalized();
+  }
+  if (yaml.has("sensor_height_m")) {
+    const double height_m = yaml.number("sensor_height_m");
+    if (height_m <= 0.0) yaml.fail("sensor_height_m", "is " + text_of(height_m), "must be > 0");
+    mounting.sensor_height_m = height_m;
+  }
+  return mounting;
+}
+
+void check_baseline(const YamlReader& yaml, const std::string& key, const Eigen::Vector3d& T) {
+  const double baseline = -T.x();
+  if (std::abs(T.y()) > std::abs(T.x())) {
+    yaml.fail(key, "puts one camera above the other", "mount them side by side");
+  }
+  if (baseline <= 0.0) {
+    yaml.fail(key, "gives a baseline of " + text_of(baseline) + " m, must be > 0",
+              "swap the left and right cameras");
+  }
+  if (T.norm() > kLargestBaseline_m) {
+    yaml.fail(key, "gives a baseline of " + text_of(T.norm()) + " m, must be < 5",
+              "write it in metres, not millimetres or board squares");
+  }
+}
+
+std::optional<Rectification> read_rectification(const YamlReader& yaml) {
+  if (!yaml.has("R1") && !yaml.has("R2") && !yaml.has("P1") && !yaml.has("P2")) return std::nullopt;
+  Rectification rectification;
+  rectification.R1 = read_rotation(yaml, "R1");
+  rectification.R2 = read_rotation(yaml, "R2");
+  rectification.P1 = yaml.matrix("P1", 3, 4);
+  rectification.P2 = yaml.matrix("P2", 3, 4);
+  if (rectification.P1(0, 0) <= 0.0) yaml.fail("P1", "has no focal length > 0", "calibrate again");
+  if (rectification.P2(0, 0) <= 0.0) yaml.fail("P2", "has no focal length > 0", "calibrate again");
+  check_baseline(yaml, "P2", {rectification.P2(0, 3) / rectification.P2(0, 0), 0.0, 0.0});
+  return rectification;
+}
+
+StereoCalibration read_opencv_stereo(const YamlReader& yaml) {
+  StereoCalibration calibration;
+  calibration.left = read_lens(yaml, yaml.first_of({"K1", "M1"}), "D1");
+  calibration.right = read_lens(yaml, yaml.first_of({"K2", "M2"}), "D2");
+  calibration.R = read_rotation(yaml, "R");
+  calibration.T = yaml.matrix("T", 3, 1);
+  check_baseline(yaml, "T", calibration.T);
+  calibration.rectification = read_rectification(yaml);
+  calibration.mounting = read_mounting(yaml);
+  return calibration;
+}
+
+LensCalibration read_ros_lens(const YamlReader& yaml) {
+  if (yaml.has("distortion_model")) {
+    const std::string model = yaml.text("distortion_model");
+    if (model != "plumb_bob" && model != "rational_polynomial") {
+      yaml.fail("distortion_model", "is '" + model + "'",
+                "calibrate with plumb_bob or rational_polynomial");
+    }
+  }
+  return read_lens(yaml, "camera_matrix", "distortion_coefficients");
+}
+
+StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right) {
+  StereoCalibration calibration;
+  calibration.left = read_ros_lens(left);
+  calibration.right = read_ros_lens(right);
+  if (calibration.left.camera.width != calibration.right.camera.width ||
+      calibration.left.camera.height != calibration.right.camera.height) {
+    right.fail("image_width", "and image_height differ from " + left.path(),
+               "give two calibrations of the same image size");
+  }
+  Rectification rectification;
+  rectification.R1 = read_rotation(left, "rectification_matrix");
+  rectification.R2 = read_rotation(right, "rectification_matrix");
+  rectification.P1 = left.matrix("projection_matrix", 3, 4);
+  rectification.P2 = right.matrix("projection_matrix", 3, 4);
+  for (const auto& [yaml, P] :
+       {std::pair(&left, rectification.P1), std::pair(&right, rectification.P2)}) {
+    if (P(0, 0) <= 0.0)
+      yaml->fail("projection_matrix", "has no focal length > 0", "calibrate again");
+  }
+  if (rectification.P2(0, 3) == 0.0) {
+    right.fail("projection_matrix", "has no baseline (P[3] is 0)",
+               "calibrate the two as a stereo pair");
+  }
+  const Eigen::Vector3d t_rectified{rectification.P2(0, 3) / rectification.P2(0, 0), 0.0, 0.0};
+  check_baseline(right, "projection_matrix", t_rectified);
+  // p_rect_right = p_rect_left + t, with p_rect_left = R1 p_left and p_rect_right = R2 p_right.
+  calibration.R = rectification.R2.transpose() * rectification.R1;
+  calibration.T = rectification.R2.transpose() * t_rectified;
+  calibration.rectification = rectification;
+  calibration.mounting = read_mounting(left);
+  return calibration;
+}
+
+/// The existing file of that stem in `folder`, .yaml or .yml.
+fs::path yaml_in(const fs::path& folder, const std::string& stem) {
+  for (const char* extension : {".yaml", ".yml"}) {
+    fs::path path = folder / (stem + extension);
+    if (fs::exists(path)) return path;
+  }
+  throw InputError(folder.string() + ": has no " + stem +
+                   ".yaml; give a folder with left.yaml and " +
+                   "right.yaml, or a calibration file");
+}
+
+fs::path right_of(const fs::path& left) {
+  std::string name = left.filename().string();
+  const std::size_t place = name.rfind("left");
+  if (place == std::string::npos) {
+    throw InputError(left.string() +
+                     ": is the camera_info of one camera; name the pair left.yaml and " +
+                     "right.yaml and give the left one");
+  }
+  name.replace(place, 4, "right");
+  return left.parent_path() / name;
+}
+
+}  // namespace
+
+StereoCalibration read_stereo_calibration(const std::string& path) {
+  if (fs::is_directory(path)) {
+    return read_ros_pair(YamlReader(yaml_in(path, "left").string()),
+                         YamlReader(yaml_in(path, "right").string()));
+  }
+  const YamlReader yaml(path);
+  if (!yaml.has("camera_matrix")) return read_opencv_stereo(yaml);
+  return read_ros_pair(yaml, YamlReader(right_of(path).string()));
+}
+
+DepthCalibration read_depth_calibration(const std::string& path) {
+  const YamlReader yaml(path);
+  DepthCalibration calibration;
+  calibration.color = read_ros_lens(yaml);
+  if (yaml.has("depth_scale")) calibration.depth_scale_m = yaml.number("depth_scale");
+  if (calibration.depth_scale_m <= 0.0 || calibration.depth_scale_m > 0.1) {
+    yaml.fail("depth_scale", "is " + text_of(calibration.depth_scale_m),
+              "must be > 0 and <= 0.1 metres a unit (0.001 for millimetres)");
+  }
+  calibration.mounting = read_mounting(yaml);
+  return calibration;
+}
+
+double baseline_m(const StereoCalibration& calibration) { return -calibration.T.x(); }
+
+}  // namespace limbcast

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "common/camera/calibration.hpp"
+
+namespace limbcast {
+
+/// Reads a stereo calibration and checks that it can be one. `path` is
+/// - an OpenCV FileStorage file with cv::stereoCalibrate's names: image_width, image_height, K1 D1
+/// K2 D2 R T
+///   (metres) and, together or not at all, R1 R2 P1 P2;
+/// - a ROS camera_info pair: a folder with left.yaml and right.yaml, or the left one's path (the
+/// right one's
+///   name has "right" where it has "left"). The baseline comes from the right projection_matrix.
+/// Optional in the (left) file: down (3 numbers, gravity in the rectified left camera),
+/// sensor_height_m. Throws InputError: file, key, what was found, what to do.
+StereoCalibration read_stereo_calibration(const std::string& path);
+
+/// Reads a depth camera's calibration: image_width, image_height, camera_matrix,
+/// distortion_coefficients (OpenCV or ROS YAML), depth_scale (metres a unit, default 0.001), and
+/// optionally down, sensor_height_m.
+DepthCalibration read_depth_calibration(const std::string& path);
+
+/// Distance between the optical centres along the left camera's x axis [m].
+double baseline_m(const StereoCalibration& calibration);
+
+}  // namespace limbcast

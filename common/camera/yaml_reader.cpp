@@ -1,0 +1,130 @@
+#include "common/camera/yaml_reader.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "common/input_error.hpp"
+
+namespace limbcast {
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw InputError(path + ": cannot be read; give the path of a calibration file");
+  if (text.empty()) throw InputError(path + ": is empty; calibrate again or copy the file again");
+  return text;
+}
+
+/// ROS writes plain YAML; OpenCV's reader wants its own first line.
+std::string with_opencv_header(const std::string& text) {
+  if (text.rfind("%YAML", 0) == 0 || text.rfind("<?xml", 0) == 0 || text.front() == '{')
+    return text;
+  return "%YAML:1.0\n" + std::string(text.rfind("---", 0) == 0 ? "" : "---\n") + text;
+}
+
+void append_numbers(const cv::FileNode& node, std::vector<double>& numbers) {
+  for (const cv::FileNode& value : node) {
+    if (value.isSeq()) {
+      append_numbers(value, numbers);
+    } else {
+      const bool is_number = value.isReal() || value.isInt();
+      numbers.push_back(is_number ? static_cast<double>(value) : std::nan(""));
+    }
+  }
+}
+
+std::string size_text(const cv::FileNode& node, std::size_t count) {
+  if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt()) {
+    return "has " + std::to_string(count) + " numbers";
+  }
+  return "is " + std::to_string(static_cast<int>(node["rows"])) + " x " +
+         std::to_string(static_cast<int>(node["cols"]));
+}
+
+}  // namespace
+
+YamlReader::YamlReader(const std::string& path) : path_(path) {
+  const std::string text = with_opencv_header(read_text(path));
+  try {
+    storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  } catch (const cv::Exception& error) {
+    throw InputError(path + ": is no valid YAML (" + error.err +
+                     "); calibrate again or copy it again");
+  }
+  if (!storage_.isOpened() || !storage_.root().isMap()) {
+    throw InputError(path +
+                     ": is no calibration; OpenCV FileStorage or ROS camera_info YAML expected");
+  }
+}
+
+bool YamlReader::has(const std::string& key) const { return !storage_[key].empty(); }
+
+std::string YamlReader::first_of(const std::vector<std::string>& keys) const {
+  for (const std::string& key : keys) {
+    if (has(key)) return key;
+  }
+  return keys.front();
+}
+
+cv::FileNode YamlReader::node(const std::string& key) const {
+  const cv::FileNode found = storage_[key];
+  if (found.empty()) fail(key, "is missing", "add it");
+  return found;
+}
+
+int YamlReader::integer(const std::string& key) const {
+  const cv::FileNode value = node(key);
+  if (!value.isInt()) fail(key, "is not a whole number", "correct it");
+  return static_cast<int>(value);
+}
+
+double YamlReader::number(const std::string& key) const {
+  const cv::FileNode value = node(key);
+  if (!value.isInt() && !value.isReal()) fail(key, "is not a number", "correct it");
+  const auto number = static_cast<double>(value);
+  if (!std::isfinite(number)) fail(key, "is not finite", "calibrate again");
+  return number;
+}
+
+std::string YamlReader::text(const std::string& key) const {
+  const cv::FileNode value = node(key);
+  if (!value.isString()) fail(key, "is not a text", "correct it");
+  return value.string();
+}
+
+std::vector<double> YamlReader::numbers(const std::string& key) const {
+  const cv::FileNode value = node(key);
+  const cv::FileNode data = value.isMap() ? value["data"] : value;
+  if (!data.isSeq()) fail(key, "is not a list of numbers", "correct it");
+  std::vector<double> numbers;
+  append_numbers(data, numbers);
+  for (const double number : numbers) {
+    if (!std::isfinite(number))
+      fail(key, "holds a value that is no finite number", "calibrate again");
+  }
+  return numbers;
+}
+
+Eigen::MatrixXd YamlReader::matrix(const std::string& key, int rows, int cols) const {
+  const std::vector<double> values = numbers(key);
+  const cv::FileNode value = node(key);
+  const bool is_vector = rows == 1 || cols == 1;
+  const bool size_told = value.isMap() && !is_vector;
+  const bool size_right = !size_told || (static_cast<int>(value["rows"]) == rows &&
+                                         static_cast<int>(value["cols"]) == cols);
+  if (!size_right || values.size() != static_cast<std::size_t>(rows * cols)) {
+    fail(key, size_text(value, values.size()),
+         "must be " + std::to_string(rows) + " x " + std::to_string(cols));
+  }
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(values.data(), rows, cols);
+}
+
+void YamlReader::fail(const std::string& key, const std::string& found,
+                      const std::string& advice) const {
+  throw InputError(path_ + ": '" + key + "' " + found + "; " + advice);
+}
+
+}  // namespace limbcast

@@ -1,0 +1,299 @@
+#include "common/camera/calibration_io.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <map>
+
+#include "common/input_error.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+
+namespace limbcast {
+namespace {
+
+using ::testing::AllOf;
+using testing::error_of;
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+using Entries = std::map<std::string, std::string>;
+
+std::string matrix(int rows, int cols, const std::string& data) {
+  return "!!opencv-matrix\n   rows: " + std::to_string(rows) +
+         "\n   cols: " + std::to_string(cols) + "\n   dt: d\n   data: [ " + data + " ]";
+}
+
+Entries opencv_entries() {
+  return {{"image_width", "640"},
+          {"image_height", "480"},
+          {"K1", matrix(3, 3, "500., 0., 320., 0., 501., 240., 0., 0., 1.")},
+          {"D1", matrix(1, 5, "-0.3, 0.1, 0.001, -0.002, 0.05")},
+          {"K2", matrix(3, 3, "510., 0., 321., 0., 511., 241., 0., 0., 1.")},
+          {"D2", matrix(1, 5, "0., 0., 0., 0., 0.")},
+          {"R", matrix(3, 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.")},
+          {"T", matrix(3, 1, "-0.12, 0.001, -0.002")}};
+}
+
+std::string yaml(const Entries& entries, const std::string& header = "%YAML:1.0\n---\n") {
+  std::string text = header;
+  for (const auto& [key, value] : entries) text.append(key).append(": ").append(value).append("\n");
+  return text;
+}
+
+std::string ros_matrix(int rows, int cols, const std::string& data) {
+  return "\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(cols) + "\n  data: [" +
+         data + "]";
+}
+
+Entries ros_entries(const std::string& tx) {
+  return {{"image_width", "640"},
+          {"image_height", "480"},
+          {"camera_name", "stereo/left"},
+          {"camera_matrix", ros_matrix(3, 3, "430.0, 0, 310.5, 0, 431.0, 239.5, 0, 0, 1")},
+          {"distortion_model", "plumb_bob"},
+          {"distortion_coefficients", ros_matrix(1, 5, "-0.36, 0.16, 0.0001, -0.0002, 0")},
+          {"rectification_matrix", ros_matrix(3, 3, "1, 0, 0, 0, 1, 0, 0, 0, 1")},
+          {"projection_matrix",
+           ros_matrix(3, 4, "400, 0, 315, " + tx + ", 0, 400, 240, 0, 0, 0, 1, 0")}};
+}
+
+class StereoCalibrationFile : public ::testing::Test {
+ protected:
+  std::string error_with(const std::string& key, const std::string& value) {
+    Entries entries = opencv_entries();
+    entries[key] = value;
+    return error_of_file(yaml(entries));
+  }
+  std::string error_of_file(const std::string& text) {
+    const std::string path = folder_.write("stereo.yml", text);
+    return error_of<InputError>([&] { read_stereo_calibration(path); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(StereoCalibrationFile, GivesEveryValueOfAnOpenCvFile) {
+  const StereoCalibration calibration =
+      read_stereo_calibration(folder_.write("stereo.yml", yaml(opencv_entries())));
+
+  EXPECT_EQ(calibration.left.camera.width, 640);
+  EXPECT_EQ(calibration.right.camera.height, 480);
+  EXPECT_EQ(calibration.left.camera.fx, 500.0);
+  EXPECT_EQ(calibration.left.camera.fy, 501.0);
+  EXPECT_EQ(calibration.right.camera.cx, 321.0);
+  EXPECT_EQ(calibration.right.camera.cy, 241.0);
+  EXPECT_THAT(calibration.left.distortion, ::testing::ElementsAre(-0.3, 0.1, 0.001, -0.002, 0.05));
+  EXPECT_EQ(calibration.T, Eigen::Vector3d(-0.12, 0.001, -0.002));
+  EXPECT_EQ(baseline_m(calibration), 0.12);
+  EXPECT_FALSE(calibration.rectification);
+  EXPECT_FALSE(calibration.mounting.down);
+}
+
+TEST_F(StereoCalibrationFile, GivesMountingWhereTold) {
+  Entries entries = opencv_entries();
+  entries["down"] = "[ 0., 0.6, 0.8 ]";
+  entries["sensor_height_m"] = "1.25";
+
+  const StereoCalibration calibration =
+      read_stereo_calibration(folder_.write("stereo.yml", yaml(entries)));
+
+  ASSERT_TRUE(calibration.mounting.down);
+  EXPECT_TRUE(calibration.mounting.down->isApprox(Eigen::Vector3d(0.0, 0.6, 0.8)));
+  EXPECT_EQ(calibration.mounting.sensor_height_m, 1.25);
+}
+
+TEST_F(StereoCalibrationFile, TakesBaselineAndPoseFromARosPair) {
+  // The right camera is turned by 90 degrees about its axis, so that R and T show which way R2 is
+  // used.
+  Entries right = ros_entries("-48");
+  right["rectification_matrix"] = ros_matrix(3, 3, "0, -1, 0, 1, 0, 0, 0, 0, 1");
+  folder_.write("left.yaml", yaml(ros_entries("0"), ""));
+  folder_.write("right.yaml", yaml(right, ""));
+
+  const StereoCalibration calibration = read_stereo_calibration(folder_.path());
+
+  EXPECT_EQ(calibration.left.camera.fx, 430.0);
+  EXPECT_EQ(calibration.left.distortion.size(), 5U);
+  ASSERT_TRUE(calibration.rectification);
+  EXPECT_EQ(calibration.rectification->P2(0, 3), -48.0);
+  // t = (-48 / 400, 0, 0) in the rectified right camera; T = R2^T t = (row 0 of R2) * -0.12.
+  EXPECT_TRUE(calibration.T.isApprox(Eigen::Vector3d(0.0, 0.12, 0.0))) << calibration.T;
+  EXPECT_TRUE(calibration.R.isApprox(calibration.rectification->R2.transpose()));
+}
+
+TEST_F(StereoCalibrationFile, FindsTheRightRosFileBesideTheLeft) {
+  const std::string left = folder_.write("front_left.yaml", yaml(ros_entries("0"), ""));
+  folder_.write("front_right.yaml", yaml(ros_entries("-48"), ""));
+
+  EXPECT_DOUBLE_EQ(baseline_m(read_stereo_calibration(left)), 0.12);
+}
+
+TEST_F(StereoCalibrationFile, TellsThatRosCamerasAreSwapped) {
+  folder_.write("left.yaml", yaml(ros_entries("0"), ""));
+  folder_.write("right.yaml", yaml(ros_entries("48"), ""));
+
+  EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_.path()); }),
+              AllOf(HasSubstr("right.yaml"), HasSubstr("baseline of -0.12 m"), HasSubstr("swap")));
+}
+
+TEST_F(StereoCalibrationFile, TellsThatRosCamerasWereNotCalibratedAsAPair) {
+  folder_.write("left.yaml", yaml(ros_entries("0"), ""));
+  folder_.write("right.yaml", yaml(ros_entries("0"), ""));
+
+  EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_.path()); }),
+              HasSubstr("P[3] is 0"));
+}
+
+TEST_F(StereoCalibrationFile, NamesAMissingRosPartner) {
+  folder_.write("left.yaml", yaml(ros_entries("0"), ""));
+
+  EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_.path()); }),
+              HasSubstr("has no right.yaml"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesAFisheyeModel) {
+  Entries left = ros_entries("0");
+  left["distortion_model"] = "equidistant";
+  folder_.write("left.yaml", yaml(left, ""));
+  folder_.write("right.yaml", yaml(ros_entries("-48"), ""));
+
+  EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_.path()); }),
+              HasSubstr("'distortion_model' is 'equidistant'"));
+}
+
+TEST_F(StereoCalibrationFile, TellsThatCamerasAreSwapped) {
+  EXPECT_THAT(error_with("T", matrix(3, 1, "0.12, 0., 0.")),
+              AllOf(HasSubstr("stereo.yml: 'T'"), HasSubstr("-0.12 m, must be > 0"),
+                    HasSubstr("swap the left and right cameras")));
+}
+
+TEST_F(StereoCalibrationFile, RefusesABaselineInMillimetres) {
+  EXPECT_THAT(error_with("T", matrix(3, 1, "-120., 0., 0.")),
+              HasSubstr("in metres, not millimetres"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesCamerasAboveOneAnother) {
+  EXPECT_THAT(error_with("T", matrix(3, 1, "-0.01, 0.12, 0.")), HasSubstr("side by side"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesARotationThatIsNone) {
+  EXPECT_THAT(error_with("R", matrix(3, 3, "1.1, 0., 0., 0., 1., 0., 0., 0., 1.")),
+              HasSubstr("'R' is not a rotation"));
+  EXPECT_THAT(error_with("R", matrix(3, 3, "-1., 0., 0., 0., 1., 0., 0., 0., 1.")),
+              HasSubstr("'R' is not a rotation"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesARotationThatIsNotSquare) {
+  EXPECT_THAT(error_with("R", matrix(3, 1, "0.1, 0.2, 0.3")),
+              HasSubstr("'R' is 3 x 1; must be 3 x 3"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesNumbersThatAreNotFinite) {
+  EXPECT_THAT(error_with("K1", matrix(3, 3, ".Nan, 0., 320., 0., 501., 240., 0., 0., 1.")),
+              HasSubstr("'K1' holds a value that is no finite number"));
+  EXPECT_THAT(error_with("D1", matrix(1, 5, "0., .Inf, 0., 0., 0.")), HasSubstr("'D1' holds"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesACalibrationOfAnotherImageSize) {
+  EXPECT_THAT(error_with("image_width", "320"), HasSubstr("outside the image of 320x480"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesAFocalLengthOfZero) {
+  EXPECT_THAT(error_with("K2", matrix(3, 3, "0., 0., 320., 0., 501., 240., 0., 0., 1.")),
+              HasSubstr("both must be > 0"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesAnUnknownNumberOfDistortionCoefficients) {
+  EXPECT_THAT(error_with("D2", matrix(1, 3, "0., 0., 0.")),
+              HasSubstr("must be 0, 4, 5, 8, 12 or 14"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesSizesThatCannotBe) {
+  EXPECT_THAT(error_with("image_height", "-480"), HasSubstr("'image_height' is -480"));
+  EXPECT_THAT(error_with("image_height", "480.5"), HasSubstr("not a whole number"));
+}
+
+TEST_F(StereoCalibrationFile, NamesEveryMissingKey) {
+  for (const auto& [key, value] : opencv_entries()) {
+    if (key == "D1" || key == "D2") continue;  // none = no distortion
+    Entries entries = opencv_entries();
+    entries.erase(key);
+    EXPECT_THAT(error_of_file(yaml(entries)), HasSubstr("'" + key + "' is missing")) << key;
+  }
+}
+
+TEST_F(StereoCalibrationFile, WantsAllOfTheRectificationOrNone) {
+  EXPECT_THAT(error_with("R1", matrix(3, 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.")),
+              HasSubstr("'R2' is missing"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesGravityThatIsNoUnitVector) {
+  EXPECT_THAT(error_with("down", "[ 0., 9.81, 0. ]"), HasSubstr("must be a unit vector"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesFilesThatAreNoCalibration) {
+  EXPECT_THAT(error_of_file(""), HasSubstr("is empty"));
+  EXPECT_THAT(
+      error_of_file("%YAML:1.0\n---\nK1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+                    "   data: [ 5.2060000"),
+      HasSubstr("stereo.yml"));
+  EXPECT_THAT(error_of_file("\xFF\xD8\xFF\xE0 a picture"), HasSubstr("stereo.yml"));
+  EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_ / "none.yml"); }),
+              HasSubstr("none.yml: cannot be read"));
+}
+
+TEST_F(StereoCalibrationFile, OfTheRecordedPairsIsRead) {
+  const std::string data = LIMBCAST_DATA_DIR;
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
+
+  const auto ideal = read_stereo_calibration(data + "/stereo_dev/pointing/calibration.yml");
+  EXPECT_DOUBLE_EQ(baseline_m(ideal), 0.12);
+  ASSERT_TRUE(ideal.rectification);
+  const auto distorted = read_stereo_calibration(data + "/stereo_dev/distorted/calibration.yml");
+  EXPECT_NEAR(baseline_m(distorted), 0.12, 1e-4);
+  // The board squares of this one have no known size.
+  EXPECT_THROW(read_stereo_calibration(data + "/stereo_opencv/calibration.yml"), InputError);
+}
+
+class DepthCalibrationFile : public ::testing::Test {
+ protected:
+  Entries entries_ = {
+      {"image_width", "640"},
+      {"image_height", "480"},
+      {"camera_matrix", matrix(3, 3, "525., 0., 319.5, 0., 525., 239.5, 0., 0., 1.")},
+      {"distortion_coefficients", matrix(1, 5, "0., 0., 0., 0., 0.")},
+      {"depth_scale", "0.0001"}};
+  DepthCalibration read() {
+    return read_depth_calibration(folder_.write("depth.yml", yaml(entries_)));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(DepthCalibrationFile, GivesCameraAndScale) {
+  const DepthCalibration calibration = read();
+  EXPECT_EQ(calibration.color.camera.fx, 525.0);
+  EXPECT_EQ(calibration.depth_scale_m, 0.0001);
+}
+
+TEST_F(DepthCalibrationFile, MeansMillimetresWhereNoScaleIsTold) {
+  entries_.erase("depth_scale");
+  EXPECT_EQ(read().depth_scale_m, 0.001);
+}
+
+TEST_F(DepthCalibrationFile, RefusesAScaleThatCannotBe) {
+  entries_["depth_scale"] = "1000.";
+  EXPECT_THAT(error_of<InputError>([&] { read(); }), HasSubstr("'depth_scale' is 1000"));
+  entries_["depth_scale"] = "0.";
+  EXPECT_THAT(error_of<InputError>([&] { read(); }), HasSubstr("'depth_scale' is 0"));
+}
+
+TEST_F(DepthCalibrationFile, OfTheRealRecordingsIsRead) {
+  const std::string data = LIMBCAST_DATA_DIR;
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
+  const auto calibration = read_depth_calibration(data + "/rgbd_pointing/calibration.yml");
+  EXPECT_EQ(calibration.color.camera.fx, 617.25);
+  EXPECT_EQ(calibration.depth_scale_m, 0.001);
+}
+
+}  // namespace
+}  // namespace limbcast

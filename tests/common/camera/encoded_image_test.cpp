@@ -1,0 +1,80 @@
+#include "common/camera/encoded_image.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "common/input_error.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+
+namespace limbcast {
+namespace {
+
+using testing::error_of;
+using ::testing::HasSubstr;
+
+cv::Mat ramp(int type) {
+  cv::Mat image(48, 64, type);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) image.col(u).row(v).setTo(cv::Scalar::all(u + 2 * v));
+  }
+  return image;
+}
+
+TEST(EncodedImage, HeaderOfAJpegTellsItsSize) {
+  for (const int type : {CV_8UC1, CV_8UC3}) {
+    const EncodedImage made = encode_jpeg(ramp(type), 90);
+    const EncodedImage found = identify_image(made.bytes, "test");
+    EXPECT_EQ(found.format, ImageFormat::kJpeg);
+    EXPECT_EQ(found.width, 64);
+    EXPECT_EQ(found.height, 48);
+    EXPECT_EQ(found.channels, made.channels);
+    EXPECT_EQ(found.bytes, made.bytes);
+  }
+}
+
+TEST(EncodedImage, HeaderOfAPngTellsItsSize) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
+    const EncodedImage made = encode_png(ramp(type));
+    const EncodedImage found = identify_image(made.bytes, "test");
+    EXPECT_EQ(found.format, ImageFormat::kPng);
+    EXPECT_EQ(found.width, 64);
+    EXPECT_EQ(found.height, 48);
+    EXPECT_EQ(found.channels, made.channels);
+    EXPECT_EQ(found.bits, made.bits);
+  }
+}
+
+TEST(EncodedImage, PngKeepsEveryPixel) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC1}) {
+    const cv::Mat image = ramp(type);
+    const cv::Mat decoded = decode_image(encode_png(image), "test");
+    ASSERT_EQ(decoded.type(), image.type());
+    EXPECT_EQ(cv::norm(decoded, image, cv::NORM_INF), 0.0);
+  }
+}
+
+TEST(EncodedImage, TornFilesAreRecognisedWhereverTheyEnd) {
+  for (const EncodedImage& whole : {encode_jpeg(ramp(CV_8UC3), 90), encode_png(ramp(CV_8UC3))}) {
+    for (std::size_t size = 0; size + 4 < whole.bytes.size(); size += 7) {
+      const std::vector<std::uint8_t> torn(whole.bytes.begin(),
+                                           whole.bytes.begin() + static_cast<std::ptrdiff_t>(size));
+      EXPECT_THROW(identify_image(torn, "test"), InputError) << size;
+    }
+  }
+}
+
+TEST(EncodedImage, OtherFilesAreNamed) {
+  const testing::TemporaryFolder folder;
+  const std::string text = folder.write("a_left.jpg", "this is no picture");
+  EXPECT_THAT(error_of<InputError>([&] { read_encoded_image(text); }),
+              HasSubstr("a_left.jpg: is neither JPEG nor PNG"));
+  const std::string empty = folder.write("b_left.jpg", "");
+  EXPECT_THAT(error_of<InputError>([&] { read_encoded_image(empty); }), HasSubstr("is empty"));
+  EXPECT_THAT(error_of<InputError>([&] { read_encoded_image(folder / "none.jpg"); }),
+              HasSubstr("none.jpg: cannot be read"));
+}
+
+}  // namespace
+}  // namespace limbcast
