@@ -297,7 +297,7 @@ int run_program(const std::string& program, const std::function<void()>& body) {
   try {
     body();
     return 0;
-  } catch (const UsageError& error) {
+  } catch (const InputError& error) {
     std::cerr << program << ": " << error.what() << '\n';
     return kWrongUsage;
   } catch (const std::exception& error) {

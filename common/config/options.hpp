@@ -9,12 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "common/input_error.hpp"
+
 namespace limbcast::config {
 
 /// Wrong usage or input: the program ends with exit code 2 and this one line.
-class UsageError : public std::runtime_error {
+class UsageError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 /// Allowed values of a number; both ends belong to it.
