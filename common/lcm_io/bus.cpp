@@ -1,0 +1,116 @@
+#include "common/lcm_io/bus.hpp"
+
+#include <cstdlib>
+
+#include "common/config/options.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+/// How long the receiving thread may take to see that it shall end [ms].
+constexpr int kReceiveTimeoutMs = 50;
+
+}  // namespace
+
+std::string effective_url(const std::string& url) {
+  if (!url.empty()) return url;
+  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+  return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
+}
+
+Bus::Bus(const std::string& url) : lcm_(effective_url(url)) {
+  if (!lcm_.good())
+    throw config::UsageError(
+        "lcm-url '" + effective_url(url) +
+        "': LCM cannot start; check the URL and the multicast route (ip route add "
+        "224.0.0.0/4 dev lo)");
+}
+
+Bus::~Bus() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  if (receiver_.joinable()) receiver_.join();
+}
+
+void Bus::set_on_malformed(std::function<void(const std::string&, const std::string&)> callback) {
+  on_malformed_ = std::move(callback);
+}
+
+std::int64_t Bus::skipped() const {
+  const std::lock_guard lock(mutex_);
+  return skipped_;
+}
+
+void Bus::subscribe_bytes(const std::string& channel, Keep keep,
+                          std::function<void(const std::vector<std::uint8_t>&)> handler) {
+  auto subscription = std::make_unique<Subscription>();
+  subscription->bus = this;
+  subscription->channel = channel;
+  subscription->keep = keep;
+  subscription->handler = std::move(handler);
+  lcm::Subscription* made = lcm_.subscribeFunction(channel, &Bus::on_message, subscription.get());
+  // LCM counts a queue for each subscription; ours is emptied at once, so its length only covers
+  // bursts.
+  constexpr int kReceiveQueue = 1000;
+  made->setQueueCapacity(kReceiveQueue);
+  subscriptions_.push_back(std::move(subscription));
+  if (!receiver_.joinable()) receiver_ = std::thread(&Bus::receive, this);
+}
+
+void Bus::publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+  lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
+}
+
+void Bus::on_message(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/,
+                     Subscription* subscription) {
+  const auto* data = static_cast<const std::uint8_t*>(buffer->data);
+  Bus& bus = *subscription->bus;
+  const std::lock_guard lock(bus.mutex_);
+  if (subscription->keep == Keep::kNewest && !subscription->pending.empty()) {
+    subscription->pending.clear();
+    ++bus.skipped_;
+  }
+  subscription->pending.push_back({bus.next_order_++, {data, data + buffer->data_size}});
+  bus.arrived_.notify_one();
+}
+
+void Bus::receive() {
+  const auto ending = [this] {
+    const std::lock_guard lock(mutex_);
+    return ending_;
+  };
+  while (!ending()) lcm_.handleTimeout(kReceiveTimeoutMs);
+}
+
+Bus::Subscription* Bus::first_pending() {
+  Subscription* first = nullptr;
+  for (const auto& subscription : subscriptions_) {
+    if (subscription->pending.empty()) continue;
+    if (first == nullptr || subscription->pending.front().order < first->pending.front().order)
+      first = subscription.get();
+  }
+  return first;
+}
+
+bool Bus::handle(std::chrono::milliseconds timeout) {
+  Subscription* subscription = nullptr;
+  std::vector<std::uint8_t> bytes;
+  {
+    std::unique_lock lock(mutex_);
+    arrived_.wait_for(lock, timeout, [this] { return first_pending() != nullptr; });
+    subscription = first_pending();
+    if (subscription == nullptr) return false;
+    bytes = std::move(subscription->pending.front().bytes);
+    subscription->pending.pop_front();
+  }
+  try {
+    subscription->handler(bytes);
+  } catch (const MessageError& error) {
+    if (on_malformed_) on_malformed_(subscription->channel, error.what());
+  }
+  return true;
+}
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/lcm_io/decode.hpp"
+
+namespace limbcast::lcm_io {
+
+/// This host only, unless the user says otherwise: LCM has no authentication.
+inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+/// `url` if given, else $LCM_DEFAULT_URL, else kDefaultUrl.
+std::string effective_url(const std::string& url);
+
+/// What a subscriber keeps while it works on a message.
+enum class Keep {
+  kNewest,  ///< the newest message; older ones are skipped and counted
+  kAll,     ///< every message: calibrations, offline tools
+};
+
+/// LCM with lambdas. A thread of its own receives, so that a slow handler makes LCM lose nothing;
+/// the handlers run in the thread that calls handle(), in order of arrival.
+///
+/// LCM's own queue of one would keep the oldest message and drop the newest, so the choice is made
+/// here.
+class Bus {
+ public:
+  /// Throws config::UsageError where LCM cannot be started with the URL.
+  explicit Bus(const std::string& url);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  /// `handler` gets each message that could be decoded. A MessageError (of decoding or thrown by
+  /// it) drops the message and goes to on_malformed; what else it throws comes out of handle().
+  template <class Message>
+  void subscribe(const std::string& channel, Keep keep,
+                 std::function<void(const Message&)> handler) {
+    subscribe_bytes(channel, keep,
+                    [handler = std::move(handler)](const std::vector<std::uint8_t>& bytes) {
+                      handler(decode<Message>(bytes));
+                    });
+  }
+
+  template <class Message>
+  void publish(const std::string& channel, const Message& message) {
+    std::vector<std::uint8_t> bytes(message.getEncodedSize());
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    publish_bytes(channel, bytes);
+  }
+
+  /// Runs the handler of the message that came first; waits for one up to `timeout`. False: none
+  /// came.
+  bool handle(std::chrono::milliseconds timeout);
+
+  /// Called with channel and reason for each message that was dropped as malformed.
+  void set_on_malformed(
+      std::function<void(const std::string& channel, const std::string& reason)> callback);
+  /// Messages left out so far because a newer one was there.
+  std::int64_t skipped() const;
+
+ private:
+  struct Pending {
+    std::int64_t order;
+    std::vector<std::uint8_t> bytes;
+  };
+  struct Subscription {
+    Bus* bus;
+    std::string channel;
+    Keep keep;
+    std::function<void(const std::vector<std::uint8_t>&)> handler;
+    std::deque<Pending> pending;
+  };
+
+  void subscribe_bytes(const std::string& channel, Keep keep,
+                       std::function<void(const std::vector<std::uint8_t>&)> handler);
+  void publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
+  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                         Subscription* subscription);
+  void receive();
+  Subscription* first_pending();
+
+  lcm::LCM lcm_;
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::function<void(const std::string&, const std::string&)> on_malformed_;
+  mutable std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::int64_t next_order_ = 0, skipped_ = 0;
+  bool ending_ = false;
+  std::thread receiver_;
+};
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include "common/lcm_io/message_error.hpp"
+
+namespace limbcast::lcm_io {
+
+/// The message that these bytes hold. Throws MessageError where they are of another type,
+/// truncated, or claim more elements than memory holds (generated decoders allocate before they
+/// read).
+template <class Message>
+Message decode(const std::vector<std::uint8_t>& bytes) {
+  Message message{};
+  try {
+    require(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0,
+            "not a message of this type, or truncated");
+  } catch (const std::length_error&) {
+    throw MessageError("claims a negative number of elements");
+  } catch (const std::bad_alloc&) {
+    throw MessageError("claims more elements than memory holds");
+  }
+  return message;
+}
+
+}  // namespace limbcast::lcm_io

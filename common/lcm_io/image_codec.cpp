@@ -1,0 +1,105 @@
+#include "common/lcm_io/image_codec.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "common/lcm_io/message_error.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+/// Larger than any camera that fits a robot; guards against nonsense in a message [px].
+constexpr int kMaxSide = 8192;
+
+image_t message_of(const cv::Mat& image, std::int8_t encoding, std::vector<std::uint8_t> data) {
+  image_t message{};
+  message.width = image.cols;
+  message.height = image.rows;
+  message.encoding = encoding;
+  message.size = static_cast<std::int32_t>(data.size());
+  message.data = std::move(data);
+  return message;
+}
+
+image_t to_coded_message(const cv::Mat& image, const char* extension, std::int8_t encoding,
+                         const std::vector<int>& parameters) {
+  if (image.empty()) return {};
+  std::vector<std::uint8_t> data;
+  if (!cv::imencode(extension, image, data, parameters))
+    throw std::runtime_error(std::string("image cannot be coded as ") + extension);
+  return message_of(image, encoding, std::move(data));
+}
+
+cv::Mat decode_raw(const image_t& message, int channels) {
+  const std::size_t expected = static_cast<std::size_t>(message.width) * message.height * channels;
+  require(message.data.size() == expected, "image: raw data has another size than width x height");
+  cv::Mat image(message.height, message.width, CV_8UC(channels));
+  std::copy(message.data.begin(), message.data.end(), image.data);
+  return image;
+}
+
+cv::Mat decode_file(const image_t& message) {
+  cv::Mat image;
+  try {
+    image = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+  } catch (const cv::Exception&) {
+    throw MessageError("image: data cannot be decoded");
+  }
+  require(!image.empty(), "image: data cannot be decoded");
+  require(image.cols == message.width && image.rows == message.height,
+          "image: decoded size differs from width x height");
+  return image;
+}
+
+}  // namespace
+
+image_t to_jpeg_message(const cv::Mat& image, int quality) {
+  return to_coded_message(image, ".jpg", image_t::JPEG, {cv::IMWRITE_JPEG_QUALITY, quality});
+}
+
+image_t to_png_message(const cv::Mat& image) {
+  constexpr int kFastCompression = 1;
+  return to_coded_message(image, ".png", image_t::PNG,
+                          {cv::IMWRITE_PNG_COMPRESSION, kFastCompression});
+}
+
+image_t to_raw_message(const cv::Mat& image) {
+  if (image.empty()) return {};
+  const cv::Mat packed = image.isContinuous() ? image : image.clone();
+  const std::int8_t encoding = image.channels() == 1 ? image_t::RAW_GRAY8 : image_t::RAW_BGR8;
+  return message_of(image, encoding,
+                    {packed.data, packed.data + packed.total() * packed.elemSize()});
+}
+
+image_t to_file_message(const std::string& file_bytes, int width, int height,
+                        std::int8_t encoding) {
+  image_t message{};
+  message.width = width;
+  message.height = height;
+  message.encoding = encoding;
+  message.size = static_cast<std::int32_t>(file_bytes.size());
+  message.data.assign(file_bytes.begin(), file_bytes.end());
+  return message;
+}
+
+cv::Mat from_message(const image_t& message) {
+  if (message.width == 0 && message.height == 0) return {};
+  require(message.width > 0 && message.height > 0 && message.width <= kMaxSide &&
+              message.height <= kMaxSide,
+          "image: size is out of range");
+  require(!message.data.empty(), "image: no data");
+  switch (message.encoding) {
+    case image_t::RAW_GRAY8:
+      return decode_raw(message, 1);
+    case image_t::RAW_BGR8:
+      return decode_raw(message, 3);
+    case image_t::JPEG:
+    case image_t::PNG:
+      return decode_file(message);
+    default:
+      throw MessageError("image: unknown encoding");
+  }
+}
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,80 @@
+#include "common/lcm_io/log_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "common/config/options.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+/// First bytes of every event in an LCM log.
+constexpr unsigned char kSyncWord[] = {0xED, 0xA1, 0xDA, 0x01};
+
+void check_is_log(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw config::UsageError(path + ": no such file; give a log made by lcm-logger");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw config::UsageError(path + ": cannot be read; check its permissions");
+  char head[sizeof(kSyncWord)] = {};
+  in.read(head, sizeof(head));
+  if (in.gcount() == 0) throw config::UsageError(path + ": is empty; was the logger running?");
+  if (in.gcount() != sizeof(head) || std::memcmp(head, kSyncWord, sizeof(head)) != 0)
+    throw config::UsageError(path + ": is no LCM log; give a log made by lcm-logger");
+}
+
+}  // namespace
+
+LogReader::LogReader(const std::string& path) {
+  check_is_log(path);
+  size_bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  file_ = std::make_unique<lcm::LogFile>(path, "r");
+  if (!file_->good()) throw config::UsageError(path + ": cannot be opened");
+}
+
+std::optional<LogEvent> LogReader::next() {
+  const lcm::LogEvent* event = file_->readNextEvent();
+  if (event == nullptr) {
+    torn_bytes_ = size_bytes_ - position_bytes_;
+    return std::nullopt;
+  }
+  position_bytes_ = static_cast<std::int64_t>(std::ftell(file_->getFilePtr()));
+  const auto* data = static_cast<const std::uint8_t*>(event->data);
+  return LogEvent{event->timestamp, event->channel, {data, data + event->datalen}};
+}
+
+LogWriter::LogWriter(const std::string& path)
+    : path_(path), log_(lcm_eventlog_create(path.c_str(), "w")) {
+  if (log_ == nullptr)
+    throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
+}
+
+LogWriter::~LogWriter() {
+  if (log_ != nullptr) lcm_eventlog_destroy(log_);
+}
+
+void LogWriter::write(const LogEvent& event) {
+  lcm_eventlog_event_t out{};
+  out.timestamp = event.utime;
+  out.channellen = static_cast<std::int32_t>(event.channel.size());
+  out.channel = const_cast<char*>(event.channel.c_str());
+  out.datalen = static_cast<std::int32_t>(event.data.size());
+  out.data = const_cast<std::uint8_t*>(event.data.data());
+  if (lcm_eventlog_write_event(log_, &out) != 0) fail();
+}
+
+void LogWriter::close() {
+  if (log_ == nullptr) return;
+  if (std::fflush(log_->f) != 0) fail();
+  lcm_eventlog_destroy(log_);
+  log_ = nullptr;
+}
+
+void LogWriter::fail() const {
+  throw std::runtime_error(path_ + ": cannot be written (" + std::strerror(errno) +
+                           "); what was written so far is kept");
+}
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limbcast::lcm_io {
+
+/// One message of an LCM log.
+struct LogEvent {
+  std::int64_t utime = 0;  ///< when it was logged [us]
+  std::string channel;
+  std::vector<std::uint8_t> data;
+};
+
+/// Reads an lcm-logger file from its begin to its end.
+class LogReader {
+ public:
+  /// Throws config::UsageError where the file is missing, empty, or no LCM log.
+  explicit LogReader(const std::string& path);
+
+  /// The next message; nothing at the end or where the file is torn.
+  std::optional<LogEvent> next();
+
+  /// After the last message: bytes that follow it but hold no whole message (a torn log), else 0.
+  std::int64_t torn_bytes() const { return torn_bytes_; }
+  std::int64_t size_bytes() const { return size_bytes_; }
+  std::int64_t position_bytes() const { return position_bytes_; }
+
+ private:
+  std::unique_ptr<lcm::LogFile> file_;
+  std::int64_t size_bytes_ = 0, position_bytes_ = 0, torn_bytes_ = 0;
+};
+
+/// Writes an LCM log. What was written stays readable when the program ends early.
+class LogWriter {
+ public:
+  /// Throws config::UsageError where the file cannot be made.
+  explicit LogWriter(const std::string& path);
+  ~LogWriter();
+  LogWriter(const LogWriter&) = delete;
+  LogWriter& operator=(const LogWriter&) = delete;
+
+  /// Throws std::runtime_error with the reason (disk full ...).
+  void write(const LogEvent& event);
+  template <class Message>
+  void write(std::int64_t utime, const std::string& channel, const Message& message) {
+    LogEvent event{utime, channel, std::vector<std::uint8_t>(message.getEncodedSize())};
+    message.encode(event.data.data(), 0, static_cast<int>(event.data.size()));
+    write(event);
+  }
+  /// Writes out what is buffered and closes. Throws like write; the destructor closes without a
+  /// word.
+  void close();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::string path_;
+  lcm_eventlog_t* log_;
+};
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,134 @@
+#include "common/lcm_io/module.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <limbcast/module_status_t.hpp>
+
+#include "common/config/log.hpp"
+#include "common/config/version.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+constexpr std::chrono::milliseconds kStatusPeriod{1000};
+/// How long the module may take to see a signal or that the status is due.
+constexpr std::chrono::milliseconds kWait{50};
+
+volatile std::sig_atomic_t g_stop_requested = 0;
+
+void on_signal(int /*signal*/) { g_stop_requested = 1; }
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "unknown";
+  return name.data();
+}
+
+std::string summary(const module_status_t& status) {
+  std::array<char, 256> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "%.1f frames/s in, %.1f out, age p50 %.1f ms, %lld lost, %lld skipped, %lld malformed",
+      status.rate_in_hz, status.rate_out_hz, status.latency_p50_ms,
+      static_cast<long long>(status.num_lost), static_cast<long long>(status.num_skipped),
+      static_cast<long long>(status.num_malformed));
+  return text.data();
+}
+
+}  // namespace
+
+std::int64_t utime_now() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool stop_requested() { return g_stop_requested != 0; }
+
+void request_stop() { g_stop_requested = 1; }
+
+Module::Module(const std::string& name, const config::CommonOptions& options)
+    : name_(name), bus_(options.lcm_url), last_status_(std::chrono::steady_clock::now()) {
+  config::configure_log(name, options.log_level);
+  install_signal_handlers();
+  bus_.set_on_malformed([this](const std::string& channel, const std::string& reason) {
+    on_malformed(channel, reason);
+  });
+  config::log(config::LogLevel::kInfo,
+              std::string("version ") + config::kVersion + " on " + effective_url(options.lcm_url));
+}
+
+void Module::run() {
+  while (!stop_requested()) spin(kWait);
+  config::log(config::LogLevel::kInfo, "ends");
+}
+
+void Module::spin(std::chrono::milliseconds timeout) {
+  bus_.handle(timeout);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_status_ < kStatusPeriod) return;
+  send_status(std::chrono::duration<double>(now - last_status_).count());
+  last_status_ = now;
+}
+
+void Module::guarded(const std::string& channel, const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const MessageError&) {
+    throw;
+  } catch (const std::exception& error) {
+    report_problem(channel + ": " + error.what());
+  }
+}
+
+void Module::report_problem(const std::string& text) {
+  counter_.failed(text);
+  // A fault that repeats with every frame would bury the log; the status goes on telling it.
+  if (text != last_logged_problem_) config::log(config::LogLevel::kError, text);
+  last_logged_problem_ = text;
+}
+
+void Module::on_malformed(const std::string& channel, const std::string& reason) {
+  const std::string text = channel + ": message dropped: " + reason;
+  counter_.malformed(text);
+  if (text != last_logged_problem_) config::log(config::LogLevel::kWarning, text);
+  last_logged_problem_ = text;
+}
+
+void Module::send_status(double period_s) {
+  const StatusCounter::Period period = counter_.finish_period(period_s);
+  module_status_t status{};
+  status.utime = utime_now();
+  status.module = name_;
+  status.host = host_name();
+  status.pid = static_cast<std::int32_t>(getpid());
+  status.version = config::kVersion;
+  const bool idle = period.rate_in_hz == 0.0F && period.rate_out_hz == 0.0F;
+  status.state = period.failing ? "failing" : idle ? "waiting" : "running";
+  status.rate_in_hz = period.rate_in_hz;
+  status.rate_out_hz = period.rate_out_hz;
+  status.latency_p50_ms = period.latency_p50_ms;
+  status.latency_p99_ms = period.latency_p99_ms;
+  status.latency_max_ms = period.latency_max_ms;
+  status.num_received = counter_.num_received();
+  status.num_published = counter_.num_published();
+  status.num_skipped = bus_.skipped();
+  status.num_lost = std::max<std::int64_t>(0, counter_.num_gaps() - status.num_skipped);
+  status.num_malformed = counter_.num_malformed();
+  status.last_error = counter_.last_error();
+  status.note = note_;
+  bus_.publish(kStatusChannel, status);
+  if (!idle) config::log(config::LogLevel::kInfo, summary(status));
+}
+
+}  // namespace limbcast::lcm_io

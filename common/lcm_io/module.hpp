@@ -1,0 +1,88 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "common/config/options.hpp"
+#include "common/lcm_io/bus.hpp"
+#include "common/lcm_io/status_counter.hpp"
+
+namespace limbcast::lcm_io {
+
+inline constexpr const char* kStatusChannel = "MODULE_STATUS";
+
+/// Microseconds since the Unix epoch by this host's clock.
+std::int64_t utime_now();
+
+/// Ends the program cleanly on SIGINT and SIGTERM: they set what stop_requested() tells.
+void install_signal_handlers();
+bool stop_requested();
+/// Ends Module::run as a signal does.
+void request_stop();
+
+/// A process of the chain: bus, log, status once a second, a clean end on SIGINT and SIGTERM.
+///
+///     Module module("segmenter", parser.common());
+///     module.subscribe<point_cloud_t>(options.input, [&](const point_cloud_t& message) { ... });
+///     module.run();
+class Module {
+ public:
+  /// `name` as in the configuration file, e.g. "segmenter".
+  Module(const std::string& name, const config::CommonOptions& options);
+
+  /// Frames (messages with a stamp): the newest only; counted, and gaps in their sequence too. What
+  /// the handler throws is logged and put in the status, and the module goes on.
+  template <class Message>
+  void subscribe_frames(const std::string& channel, std::function<void(const Message&)> handler) {
+    bus_.subscribe<Message>(channel, Keep::kNewest,
+                            [this, channel, handler = std::move(handler)](const Message& message) {
+                              counter_.received(message.stamp.sensor, message.stamp.sequence);
+                              guarded(channel, [&] { handler(message); });
+                            });
+  }
+  /// What must not be skipped, such as a calibration.
+  template <class Message>
+  void subscribe_all(const std::string& channel, std::function<void(const Message&)> handler) {
+    bus_.subscribe<Message>(channel, Keep::kAll,
+                            [this, channel, handler = std::move(handler)](const Message& message) {
+                              guarded(channel, [&] { handler(message); });
+                            });
+  }
+
+  /// The result for a frame: counted, with its age.
+  template <class Message>
+  void publish_frame(const std::string& channel, const Message& message) {
+    bus_.publish(channel, message);
+    counter_.published(message.stamp.utime, utime_now());
+  }
+  template <class Message>
+  void publish(const std::string& channel, const Message& message) {
+    bus_.publish(channel, message);
+  }
+
+  /// Handles messages until SIGINT or SIGTERM.
+  void run();
+  /// For sources: sends the status when it is due and handles what has come; returns at once.
+  void spin_once() { spin(std::chrono::milliseconds(0)); }
+
+  /// What a user wants to know besides, e.g. who told gravity; shown in the status.
+  void set_note(const std::string& note) { note_ = note; }
+  /// A problem that the module survives: logged when it is new, and shown in the status.
+  void report_problem(const std::string& text);
+
+ private:
+  void guarded(const std::string& channel, const std::function<void()>& body);
+  void spin(std::chrono::milliseconds timeout);
+  void on_malformed(const std::string& channel, const std::string& reason);
+  void send_status(double period_s);
+
+  std::string name_;
+  Bus bus_;
+  StatusCounter counter_;
+  std::string note_;
+  std::string last_logged_problem_;
+  std::chrono::steady_clock::time_point last_status_;
+};
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,121 @@
+#include "common/lcm_io/point_cloud_codec.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <opencv2/imgproc.hpp>
+
+#include "common/lcm_io/compression.hpp"
+#include "common/lcm_io/image_codec.hpp"
+#include "common/lcm_io/message_error.hpp"
+#include "common/lcm_io/quantization.hpp"
+#include "common/lcm_io/stamp_codec.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+/// More than any sensor on a robot gives in one frame; guards against nonsense in a message.
+constexpr std::int64_t kMaxPoints = 8'000'000;
+
+cv::Mat color_image(const Cloud& cloud) {
+  static_assert(sizeof(Bgr) == 3, "colours must lie as in an 8-bit BGR image");
+  if (cloud.colors.empty()) return {};
+  // OpenCV has no view of constant data; the image is only read.
+  auto* data = const_cast<Bgr*>(cloud.colors.data());
+  return {cloud.height, cloud.width, CV_8UC3, data};
+}
+
+std::vector<Bgr> colors_of(const cv::Mat& image, const Cloud& cloud) {
+  if (image.empty()) return {};
+  require(image.cols == cloud.width && image.rows == cloud.height && image.depth() == CV_8U,
+          "point cloud: colour image has another size or depth");
+  cv::Mat bgr = image;
+  if (image.channels() == 1) cv::cvtColor(image, bgr, cv::COLOR_GRAY2BGR);
+  std::vector<Bgr> colors(cloud.points_m.size());
+  std::memcpy(colors.data(), bgr.data, colors.size() * sizeof(Bgr));
+  return colors;
+}
+
+void read_camera_layout(const point_cloud_t& message, Cloud& cloud) {
+  require(std::isfinite(message.fx) && message.fx > 0.0 && std::isfinite(message.fy) &&
+              message.fy > 0.0 && std::isfinite(message.cx) && std::isfinite(message.cy),
+          "point cloud: camera is not sound");
+  require(std::isfinite(message.inverse_depth_scale) && message.inverse_depth_scale > 0.0,
+          "point cloud: 'inverse_depth_scale' is not positive");
+  cloud.camera =
+      PinholeCamera{message.width, message.height, message.fx, message.fy, message.cx, message.cy};
+  const std::vector<float> depths_m = dequantize_depths(
+      decode_lattice(message.points, message.width, message.height), message.inverse_depth_scale);
+  cloud.points_m.resize(depths_m.size());
+  for (int v = 0, i = 0; v < message.height; ++v)
+    for (int u = 0; u < message.width; ++u, ++i)
+      cloud.points_m[i] =
+          cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), depths_m[i]);
+}
+
+void read_list_layout(const point_cloud_t& message, Cloud& cloud) {
+  require(message.height == 1, "point cloud: a list has height 1");
+  require(std::isfinite(message.resolution_m) && message.resolution_m > 0.0,
+          "point cloud: 'resolution_m' is not positive");
+  cloud.points_m = dequantize_points(
+      decode_sequence(message.points, static_cast<std::size_t>(message.width) * 3),
+      message.resolution_m);
+}
+
+}  // namespace
+
+point_cloud_t to_message(const Cloud& cloud, int jpeg_quality) {
+  point_cloud_t message{};
+  message.stamp = to_message(cloud.stamp);
+  message.width = cloud.width;
+  message.height = cloud.height;
+  if (cloud.camera) {
+    message.layout = point_cloud_t::CAMERA;
+    message.fx = cloud.camera->fx;
+    message.fy = cloud.camera->fy;
+    message.cx = cloud.camera->cx;
+    message.cy = cloud.camera->cy;
+    message.inverse_depth_scale = inverse_depth_scale(cloud.stamp.depth_noise);
+    std::vector<float> depths_m(cloud.points_m.size());
+    for (std::size_t i = 0; i < depths_m.size(); ++i) depths_m[i] = cloud.points_m[i].z();
+    message.points = encode_lattice(quantize_depths(depths_m, message.inverse_depth_scale),
+                                    cloud.width, cloud.height);
+    message.color = to_jpeg_message(color_image(cloud), jpeg_quality);
+  } else {
+    message.layout = point_cloud_t::LIST;
+    message.resolution_m = list_resolution_m(cloud.points_m);
+    message.points = encode_sequence(quantize_points(cloud.points_m, message.resolution_m));
+    message.color = to_raw_message(color_image(cloud));
+  }
+  message.points_size = static_cast<std::int32_t>(message.points.size());
+  return message;
+}
+
+Cloud from_message(const point_cloud_t& message) {
+  Cloud cloud;
+  cloud.stamp = from_message(message.stamp);
+  require(message.width >= 0 && message.height >= 0 &&
+              static_cast<std::int64_t>(message.width) * message.height <= kMaxPoints,
+          "point cloud: size is out of range");
+  cloud.width = message.width;
+  cloud.height = message.height;
+  require(message.layout == point_cloud_t::CAMERA || message.layout == point_cloud_t::LIST,
+          "point cloud: unknown layout");
+  if (message.layout == point_cloud_t::CAMERA)
+    read_camera_layout(message, cloud);
+  else
+    read_list_layout(message, cloud);
+  // A list's colours are as wide as the list, which is more than an image may be: they are read as
+  // bytes.
+  if (message.layout == point_cloud_t::LIST && !message.color.data.empty()) {
+    require(message.color.encoding == image_t::RAW_BGR8 &&
+                message.color.data.size() == cloud.points_m.size() * sizeof(Bgr),
+            "point cloud: colours of a list are not three bytes a point");
+    cloud.colors.resize(cloud.points_m.size());
+    std::memcpy(cloud.colors.data(), message.color.data.data(), message.color.data.size());
+  } else {
+    cloud.colors = colors_of(from_message(message.color), cloud);
+  }
+  return cloud;
+}
+
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,68 @@
+#include "common/lcm_io/quantization.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace limbcast::lcm_io {
+namespace {
+
+constexpr double kMaxDepthCode = std::numeric_limits<std::uint16_t>::max();
+constexpr double kMaxListCode = std::numeric_limits<std::int16_t>::max();
+
+}  // namespace
+
+double inverse_depth_scale(const DepthNoise& noise, const QuantizationParams& params) {
+  const double largest = kMaxDepthCode * params.min_depth_m;
+  // A step of q is z^2 / S wide, so S = steps / quadratic makes it sigma / steps at every depth.
+  if (noise.quadratic_per_m <= 0.0F) return largest;
+  return std::min(largest, static_cast<double>(params.steps_per_sigma) / noise.quadratic_per_m);
+}
+
+std::vector<std::uint16_t> quantize_depths(const std::vector<float>& depths_m, double scale) {
+  std::vector<std::uint16_t> codes(depths_m.size(), 0);
+  for (std::size_t i = 0; i < depths_m.size(); ++i) {
+    if (!(depths_m[i] > 0.0F)) continue;
+    const double code = std::round(scale / depths_m[i]);
+    if (code >= 1.0 && code <= kMaxDepthCode) codes[i] = static_cast<std::uint16_t>(code);
+  }
+  return codes;
+}
+
+std::vector<float> dequantize_depths(const std::vector<std::uint16_t>& codes, double scale) {
+  std::vector<float> depths_m(codes.size(), 0.0F);
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    if (codes[i] > 0) depths_m[i] = static_cast<float>(scale / codes[i]);
+  return depths_m;
+}
+
+double list_resolution_m(const std::vector<Eigen::Vector3f>& points_m,
+                         const QuantizationParams& params) {
+  float largest_m = 0.0F;
+  for (const Eigen::Vector3f& point_m : points_m)
+    largest_m = std::max(largest_m, point_m.cwiseAbs().maxCoeff());
+  return std::max(params.resolution_m, largest_m / kMaxListCode);
+}
+
+std::vector<std::int16_t> quantize_points(const std::vector<Eigen::Vector3f>& points_m,
+                                          double resolution_m) {
+  std::vector<std::int16_t> codes;
+  codes.reserve(points_m.size() * 3);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Eigen::Vector3f& point_m : points_m)
+      codes.push_back(static_cast<std::int16_t>(
+          std::clamp(std::round(point_m[axis] / resolution_m), -kMaxListCode, kMaxListCode)));
+  return codes;
+}
+
+std::vector<Eigen::Vector3f> dequantize_points(const std::vector<std::int16_t>& codes,
+                                               double resolution_m) {
+  const std::size_t count = codes.size() / 3;
+  std::vector<Eigen::Vector3f> points_m(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      points_m[i][axis] = static_cast<float>(codes[axis * count + i] * resolution_m);
+  return points_m;
+}
+
+}  // namespace limbcast::lcm_io
