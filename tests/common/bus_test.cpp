@@ -1,0 +1,80 @@
+#include "common/lcm_io/bus.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limbcast/image_t.hpp>
+#include <limbcast/mounting_t.hpp>
+
+#include "common/config/options.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Ends a test whose message never comes; not a time the test waits otherwise.
+constexpr milliseconds kNever{30000};
+
+image_t numbered(int number) {
+  image_t message{};
+  message.width = number;
+  return message;
+}
+
+TEST(Bus, HandsAMessageToItsSubscriber) {
+  Bus bus("memq://");
+  int got = 0;
+  bus.subscribe<image_t>("IMAGE", Keep::kAll, [&](const image_t& message) { got = message.width; });
+  bus.publish("IMAGE", numbered(7));
+  EXPECT_TRUE(bus.handle(kNever));
+  EXPECT_EQ(got, 7);
+}
+
+TEST(Bus, KeepsEveryMessageInOrderWhereAsked) {
+  Bus bus("memq://");
+  std::vector<int> got;
+  bus.subscribe<image_t>("IMAGE", Keep::kAll,
+                         [&](const image_t& message) { got.push_back(message.width); });
+  for (int i = 0; i < 20; ++i) bus.publish("IMAGE", numbered(i));
+  while (got.size() < 20) ASSERT_TRUE(bus.handle(kNever));
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(got[i], i);
+}
+
+TEST(Bus, KeepsTheNewestAndCountsTheSkipped) {
+  Bus bus("memq://");
+  std::vector<int> got;
+  bus.subscribe<image_t>("IMAGE", Keep::kNewest,
+                         [&](const image_t& message) { got.push_back(message.width); });
+  // The marker comes last: once it is handled, all before it have arrived.
+  bool marker = false;
+  bus.subscribe<mounting_t>("MARKER", Keep::kAll, [&](const mounting_t&) { marker = true; });
+  for (int i = 0; i < 20; ++i) bus.publish("IMAGE", numbered(i));
+  bus.publish("MARKER", mounting_t{});
+  while (!marker || got.empty() || got.back() != 19) ASSERT_TRUE(bus.handle(kNever));
+  EXPECT_EQ(static_cast<int>(got.size()) + bus.skipped(), 20);
+}
+
+TEST(Bus, ReportsAForeignMessageAndGoesOn) {
+  Bus bus("memq://");
+  std::string reported;
+  int got = 0;
+  bus.set_on_malformed([&](const std::string& channel, const std::string&) { reported = channel; });
+  bus.subscribe<image_t>("IMAGE", Keep::kAll, [&](const image_t& message) { got = message.width; });
+  bus.publish("IMAGE", mounting_t{});
+  bus.publish("IMAGE", numbered(5));
+  while (got == 0) ASSERT_TRUE(bus.handle(kNever));
+  EXPECT_EQ(reported, "IMAGE");
+}
+
+TEST(Bus, PassesOnWhatAHandlerThrows) {
+  Bus bus("memq://");
+  bus.subscribe<image_t>("IMAGE", Keep::kAll,
+                         [](const image_t&) { throw std::runtime_error("broken"); });
+  bus.publish("IMAGE", numbered(1));
+  EXPECT_THROW(while (!bus.handle(kNever)){}, std::runtime_error);
+}
+
+TEST(Bus, SaysThatAUrlIsUnusable) { EXPECT_THROW(Bus("nonsense://"), config::UsageError); }
+
+}  // namespace
+}  // namespace limbcast::lcm_io

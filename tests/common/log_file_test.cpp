@@ -1,0 +1,87 @@
+#include "common/lcm_io/log_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/config/options.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string temporary(const std::string& name) {
+  return (std::filesystem::path(::testing::TempDir()) / ("limbcast_log_file_test_" + name))
+      .string();
+}
+
+std::string write_three_events(const std::string& name) {
+  const std::string path = temporary(name);
+  LogWriter writer(path);
+  for (std::uint8_t i = 0; i < 3; ++i) writer.write(LogEvent{100 + i, "CHANNEL", {i, 2, 3}});
+  writer.close();
+  return path;
+}
+
+std::string error_of(const std::string& path) {
+  try {
+    LogReader reader(path);
+  } catch (const config::UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LogFile, GivesEventsBackInOrder) {
+  LogReader reader(write_three_events("whole.log"));
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    const auto event = reader.next();
+    ASSERT_TRUE(event.has_value());
+    EXPECT_EQ(event->utime, 100 + i);
+    EXPECT_EQ(event->channel, "CHANNEL");
+    EXPECT_EQ(event->data[0], i);
+  }
+  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_EQ(reader.torn_bytes(), 0);
+}
+
+TEST(LogFile, ReadsATornLogUpToTheTear) {
+  const std::string path = write_three_events("torn.log");
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 2);
+  LogReader reader(path);
+  EXPECT_TRUE(reader.next().has_value());
+  EXPECT_TRUE(reader.next().has_value());
+  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_GT(reader.torn_bytes(), 0);
+}
+
+TEST(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {
+  EXPECT_THAT(error_of("/nowhere/in.log"), HasSubstr("/nowhere/in.log: no such file"));
+  const std::string empty = temporary("empty.log");
+  std::ofstream{empty};
+  EXPECT_THAT(error_of(empty), HasSubstr("is empty"));
+  const std::string foreign = temporary("foreign.log");
+  std::ofstream(foreign) << "a text, not a log";
+  EXPECT_THAT(error_of(foreign), HasSubstr("is no LCM log"));
+}
+
+TEST(LogFile, SaysThatAFileCannotBeWritten) {
+  EXPECT_THROW(LogWriter("/nowhere/out.log"), config::UsageError);
+}
+
+TEST(LogFile, SaysThatTheDiskIsFull) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  LogWriter writer("/dev/full");
+  EXPECT_THROW(
+      {
+        writer.write(LogEvent{1, "CHANNEL", std::vector<std::uint8_t>(100000, 1)});
+        writer.close();
+      },
+      std::runtime_error);
+}
+
+}  // namespace
+}  // namespace limbcast::lcm_io

@@ -1,0 +1,119 @@
+#include "common/config/options.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace limbcast::config {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Settings {
+  double d_max_m = 0.05;
+  int threads = 2;
+  bool verbose = false;
+  std::string method = "paper";
+  std::string input;
+};
+
+class OptionsTest : public ::testing::Test {
+ protected:
+  OptionsTest() {
+    section_.add("d-max-m", settings_.d_max_m, "m", "largest step", {0.001, 1.0});
+    section_.add("threads", settings_.threads, "", "threads", {1, 64});
+    section_.add("verbose", settings_.verbose, "say more");
+    section_.add_choice("method", settings_.method, {"paper", "refined"}, "how to fit");
+    parser_.add(section_);
+    parser_.add_positional("IN.log", settings_.input, "the log");
+  }
+  bool parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "limbcast-test");
+    return parser_.parse(static_cast<int>(arguments.size()), arguments.data(), out_);
+  }
+  std::string error_of(const std::vector<const char*>& arguments) {
+    try {
+      parse(arguments);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string config_file(const std::string& text) {
+    const auto path = std::filesystem::path(::testing::TempDir()) / "limbcast_options_test.conf";
+    std::ofstream(path) << text;
+    return path.string();
+  }
+
+  Settings settings_;
+  Section section_{"pose_fitter"};
+  Parser parser_{"limbcast-test", "test"};
+  std::ostringstream out_;
+};
+
+TEST_F(OptionsTest, KeepsDefaultsWithoutOptions) {
+  EXPECT_TRUE(parse({"in.log"}));
+  EXPECT_EQ(settings_.input, "in.log");
+  EXPECT_DOUBLE_EQ(settings_.d_max_m, 0.05);
+}
+
+TEST_F(OptionsTest, UnderstandsKeysWithAndWithoutPrefixHyphenOrUnderscore) {
+  EXPECT_TRUE(parse({"in.log", "--pose_fitter.method=refined", "--d_max_m", "0.1", "--verbose"}));
+  EXPECT_EQ(settings_.method, "refined");
+  EXPECT_DOUBLE_EQ(settings_.d_max_m, 0.1);
+  EXPECT_TRUE(settings_.verbose);
+}
+
+TEST_F(OptionsTest, TakesTheFileOverDefaultsAndTheCommandLineOverTheFile) {
+  const std::string file =
+      config_file("[pose_fitter]\nmethod = refined\nthreads = 4\n[segmenter]\nx = 1\n");
+  EXPECT_TRUE(parse({"in.log", "--config", file.c_str(), "--threads=8"}));
+  EXPECT_EQ(settings_.method, "refined");
+  EXPECT_EQ(settings_.threads, 8);
+}
+
+TEST_F(OptionsTest, NamesKeyValueAndRangeOfAValueOutOfRange) {
+  const std::string error = error_of({"in.log", "--d-max-m=7"});
+  EXPECT_THAT(error, HasSubstr("d-max-m"));
+  EXPECT_THAT(error, HasSubstr("'7'"));
+  EXPECT_THAT(error, HasSubstr("0.001 to 1"));
+}
+
+TEST_F(OptionsTest, RejectsNumbersThatAreNone) {
+  EXPECT_THAT(error_of({"in.log", "--threads=two"}), HasSubstr("'two'"));
+  EXPECT_THAT(error_of({"in.log", "--threads=2.5"}), HasSubstr("'2.5'"));
+  EXPECT_THAT(error_of({"in.log", "--d-max-m=nan"}), HasSubstr("'nan'"));
+}
+
+TEST_F(OptionsTest, RejectsUnknownOptionsChoicesAndArguments) {
+  EXPECT_THAT(error_of({"in.log", "--nonsense=1"}), HasSubstr("nonsense"));
+  EXPECT_THAT(error_of({"in.log", "--method=magic"}), HasSubstr("one of paper, refined"));
+  EXPECT_THAT(error_of({"in.log", "another.log"}), HasSubstr("another.log"));
+  EXPECT_THAT(error_of({}), HasSubstr("IN.log is missing"));
+}
+
+TEST_F(OptionsTest, NamesTheFileOfAnUnknownKeyOrSection) {
+  std::string file = config_file("[pose_fitter]\ncolour = blue\n");
+  EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}),
+              HasSubstr("limbcast_options_test.conf"));
+  file = config_file("[pose_fiter]\nmethod = paper\n");
+  EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}), HasSubstr("[pose_fiter]"));
+  EXPECT_THAT(error_of({"in.log", "--config", "/missing.conf"}), HasSubstr("/missing.conf"));
+}
+
+TEST_F(OptionsTest, HelpShowsUnitAndDefault) {
+  EXPECT_FALSE(parse({"--help"}));
+  EXPECT_THAT(out_.str(), HasSubstr("largest step [m] (0.001 to 1, default 0.05)"));
+}
+
+TEST(RunProgram, TellsWrongUsageFromFailure) {
+  EXPECT_EQ(run_program("p", [] {}), 0);
+  EXPECT_EQ(run_program("p", [] { throw std::runtime_error("disk full"); }), 1);
+  EXPECT_EQ(run_program("p", [] { throw UsageError("no such file"); }), 2);
+}
+
+}  // namespace
+}  // namespace limbcast::config

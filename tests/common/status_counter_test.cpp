@@ -1,0 +1,56 @@
+#include "common/lcm_io/status_counter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace limbcast::lcm_io {
+namespace {
+
+TEST(StatusCounter, CountsGapsInTheSequenceOfEachSensor) {
+  StatusCounter counter;
+  counter.received("front", 1);
+  counter.received("back", 10);
+  counter.received("front", 2);
+  counter.received("front", 5);
+  counter.received("back", 11);
+  EXPECT_EQ(counter.num_received(), 5);
+  EXPECT_EQ(counter.num_gaps(), 2);
+}
+
+TEST(StatusCounter, TakesASequenceThatGoesBackAsARestart) {
+  StatusCounter counter;
+  counter.received("front", 1000);
+  counter.received("front", 0);
+  counter.received("front", 1);
+  EXPECT_EQ(counter.num_gaps(), 0);
+}
+
+TEST(StatusCounter, TellsRatesAndPercentilesOfThePeriod) {
+  StatusCounter counter;
+  for (int i = 1; i <= 100; ++i) {
+    counter.received("front", i);
+    counter.published(0, i * 1000);
+  }
+  const StatusCounter::Period period = counter.finish_period(2.0);
+  EXPECT_FLOAT_EQ(period.rate_in_hz, 50.0F);
+  EXPECT_FLOAT_EQ(period.rate_out_hz, 50.0F);
+  EXPECT_FLOAT_EQ(period.latency_p50_ms, 50.0F);
+  EXPECT_FLOAT_EQ(period.latency_p99_ms, 99.0F);
+  EXPECT_FLOAT_EQ(period.latency_max_ms, 100.0F);
+}
+
+TEST(StatusCounter, StartsAfreshWithEachPeriod) {
+  StatusCounter counter;
+  counter.published(0, 5000);
+  counter.failed("camera unplugged");
+  EXPECT_TRUE(counter.finish_period(1.0).failing);
+  const StatusCounter::Period period = counter.finish_period(1.0);
+  EXPECT_FALSE(period.failing);
+  EXPECT_FLOAT_EQ(period.rate_out_hz, 0.0F);
+  EXPECT_TRUE(std::isnan(period.latency_p50_ms));
+  EXPECT_EQ(counter.last_error(), "camera unplugged");
+}
+
+}  // namespace
+}  // namespace limbcast::lcm_io
