@@ -1,0 +1,217 @@
+#include "common/cloud/ground_plane.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace limbcast {
+namespace {
+
+/// Points of a thinned cloud, each with the distance that its noise makes along the ray.
+struct Sample {
+  std::vector<float> x, y, z, noise;
+  std::size_t size() const { return x.size(); }
+  Eigen::Vector3f point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void add(const Eigen::Vector3f& point_m, const DepthNoise& depth_noise) {
+    const float distance_m = std::max(point_m.norm(), 1e-3F);
+    x.push_back(point_m.x());
+    y.push_back(point_m.y());
+    z.push_back(point_m.z());
+    // The error is along the ray, so across a plane at height h it is sigma * h / distance.
+    noise.push_back(2.0F * depth_noise.sigma_m(distance_m) / distance_m);
+  }
+};
+
+struct Plane {
+  Eigen::Vector3f down;
+  float height_m;
+};
+
+struct Support {
+  int inliers = 0, below = 0;
+  int score() const { return inliers - 2 * below; }
+};
+
+Sample thin(const Cloud& cloud, int sample_size) {
+  Sample sample;
+  const std::size_t wanted = std::max(1, sample_size);
+  if (cloud.organized()) {
+    const double share = static_cast<double>(cloud.points_m.size()) / static_cast<double>(wanted);
+    const int step = std::max(1, static_cast<int>(std::sqrt(share)));
+    for (int v = step / 2; v < cloud.height; v += step) {
+      for (int u = step / 2; u < cloud.width; u += step) {
+        const std::size_t index = static_cast<std::size_t>(v) * cloud.width + u;
+        if (!cloud.is_hole(index)) sample.add(cloud.points_m[index], cloud.stamp.depth_noise);
+      }
+    }
+    return sample;
+  }
+  // The order of an unorganised cloud may be that of the scan, so an even step could meet one ring
+  // only.
+  std::minstd_rand random(1);
+  const std::size_t count = std::min(wanted, cloud.points_m.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t index = count == cloud.points_m.size() ? i : random() % cloud.points_m.size();
+    sample.add(cloud.points_m[index], cloud.stamp.depth_noise);
+  }
+  return sample;
+}
+
+Support count_support(const Sample& sample, std::size_t step, const Plane& plane, float inlier_m) {
+  Support support;
+  for (std::size_t i = 0; i < sample.size(); i += step) {
+    const float beyond_m = plane.down.x() * sample.x[i] + plane.down.y() * sample.y[i] +
+                           plane.down.z() * sample.z[i] - plane.height_m;
+    const float tolerance_m = inlier_m + sample.noise[i] * plane.height_m;
+    support.inliers += static_cast<int>(std::abs(beyond_m) <= tolerance_m);
+    support.below += static_cast<int>(beyond_m > 2.0F * tolerance_m);
+  }
+  return support;
+}
+
+std::optional<Plane> plane_through(const std::array<Eigen::Vector3f, 3>& points,
+                                   const Eigen::Vector3f& down, const GroundPlaneParams& params) {
+  Eigen::Vector3f normal = (points[1] - points[0]).cross(points[2] - points[0]);
+  const float norm = normal.norm();
+  if (norm < 1e-4F) return std::nullopt;
+  normal /= normal.dot(down) > 0.0F ? norm : -norm;
+  const float height_m = normal.dot(points[0]);
+  if (normal.dot(down) < std::cos(params.max_tilt_rad) || height_m < params.min_height_m ||
+      height_m > params.max_height_m)
+    return std::nullopt;
+  return Plane{normal, height_m};
+}
+
+/// The best of many planes through three points each: ranked on a tenth of the sample, the first
+/// ones on all.
+std::optional<Plane> search(const Sample& sample, const Eigen::Vector3f& down,
+                            const GroundPlaneParams& params) {
+  constexpr std::size_t kCoarseStep = 10;
+  constexpr std::size_t kFinalists = 24;
+  const auto inlier_m = static_cast<float>(params.inlier_distance_m);
+  std::vector<std::pair<int, Plane>> candidates;
+  std::minstd_rand random(1);
+  for (int i = 0; i < params.ransac_iterations; ++i) {
+    std::array<Eigen::Vector3f, 3> points;
+    for (Eigen::Vector3f& point : points) point = sample.point(random() % sample.size());
+    const auto plane = plane_through(points, down, params);
+    if (plane)
+      candidates.emplace_back(count_support(sample, kCoarseStep, *plane, inlier_m).score(), *plane);
+  }
+  const auto better = [](const auto& a, const auto& b) { return a.first > b.first; };
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  if (candidates.size() > kFinalists) candidates.resize(kFinalists);
+  for (auto& [score, plane] : candidates) score = count_support(sample, 1, plane, inlier_m).score();
+  const auto best =
+      std::max_element(candidates.begin(), candidates.end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (best == candidates.end()) return std::nullopt;
+  return best->second;
+}
+
+/// Least squares plane through the points near `plane`, and how far they spread along it.
+struct Refined {
+  Plane plane;
+  double extent_m;
+};
+std::optional<Refined> refine(const Sample& sample, const Plane& plane, float inlier_m) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Eigen::Vector3f point = sample.point(i);
+    if (std::abs(plane.down.dot(point) - plane.height_m) >
+        inlier_m + sample.noise[i] * plane.height_m)
+      continue;
+    const Eigen::Vector3d p = point.cast<double>();
+    sum += p;
+    squares += p * p.transpose();
+    ++count;
+  }
+  if (count < 10) return std::nullopt;
+  const Eigen::Vector3d mean = sum / count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / count -
+                                                              mean * mean.transpose());
+  Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+  if (normal.dot(plane.down) < 0.0F) normal = -normal;
+  return Refined{{normal, normal.dot(mean.cast<float>())},
+                 std::sqrt(std::max(0.0, solver.eigenvalues()[1]))};
+}
+
+struct Ground {
+  GroundPlane plane;
+  Sample sample;
+};
+
+std::optional<Ground> find(const Cloud& cloud, const Eigen::Vector3f& down,
+                           const GroundPlaneParams& params) {
+  Sample sample = thin(cloud, params.sample_size);
+  if (sample.size() < 50) return std::nullopt;
+  std::optional<Plane> plane = search(sample, down, params);
+  if (!plane) return std::nullopt;
+  const auto inlier_m = static_cast<float>(params.inlier_distance_m);
+  double extent_m = 0.0;
+  for (int round = 0; round < 3; ++round) {
+    const auto refined = refine(sample, *plane, inlier_m);
+    if (!refined) return std::nullopt;
+    plane = refined->plane;
+    extent_m = refined->extent_m;
+  }
+  const Support support = count_support(sample, 1, *plane, inlier_m);
+  const auto share = static_cast<float>(support.inliers) / static_cast<float>(sample.size());
+  if (share < params.min_inlier_share || support.below > params.max_below_share * support.inliers ||
+      extent_m < params.min_extent_m || plane->height_m < params.min_height_m ||
+      plane->down.dot(down) < std::cos(params.max_tilt_rad))
+    return std::nullopt;
+  return Ground{{plane->down, plane->height_m, share}, std::move(sample)};
+}
+
+/// Median of the ground's points' distances along `down`: where a told gravity is off by half a
+/// degree, this is right where the points are, not below the sensor.
+float height_along(const Ground& ground, const Eigen::Vector3f& down, float inlier_m) {
+  std::vector<float> heights_m;
+  const GroundPlane& plane = ground.plane;
+  for (std::size_t i = 0; i < ground.sample.size(); ++i) {
+    const Eigen::Vector3f point = ground.sample.point(i);
+    if (std::abs(plane.down.dot(point) - plane.height_m) <= inlier_m)
+      heights_m.push_back(down.dot(point));
+  }
+  if (heights_m.empty()) return plane.height_m;
+  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<GroundPlane> find_ground_plane(const Cloud& cloud, const Eigen::Vector3f& down,
+                                             const GroundPlaneParams& params) {
+  const auto ground = find(cloud, down, params);
+  if (!ground) return std::nullopt;
+  return ground->plane;
+}
+
+void complete_gravity(Cloud& cloud, const GroundPlaneParams& params) {
+  // A told direction is good to about half a degree, a level sensor's to nothing.
+  constexpr double kToldTiltRad = 0.06;
+  Gravity& gravity = cloud.stamp.gravity;
+  const bool told = gravity.source != GravitySource::kLevel;
+  if (told && gravity.sensor_height_m) return;
+  GroundPlaneParams search_params = params;
+  if (told) search_params.max_tilt_rad = kToldTiltRad;
+  const auto ground = find(cloud, gravity.down, search_params);
+  if (!ground) return;
+  if (!told) {
+    gravity.down = ground->plane.down;
+    gravity.source = GravitySource::kGroundPlane;
+  }
+  if (!gravity.sensor_height_m)
+    gravity.sensor_height_m =
+        height_along(*ground, gravity.down, static_cast<float>(params.inlier_distance_m));
+}
+
+}  // namespace limbcast

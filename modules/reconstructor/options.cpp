@@ -1,0 +1,23 @@
+#include "modules/reconstructor/options.hpp"
+
+namespace limbcast::reconstructor {
+
+void declare(config::Section& section, ReconstructorOptions& options) {
+  section.add("near-limit-m", options.near_limit_m, "m",
+              "nearest depth; of a stereo pair it sets the disparities searched", {0.1, 100.0});
+  section.add("far-limit-m", options.far_limit_m, "m", "drop points beyond", {0.2, 1000.0});
+  section.add("image-scale", options.image_scale, "",
+              "size of the rectified images against the camera's: smaller is faster, less exact",
+              {0.1, 1.0});
+  section.add("roi-x", options.roi_x, "px",
+              "region of interest in the rectified left image: left column", {0, 100000});
+  section.add("roi-y", options.roi_y, "px", "region of interest: upper row", {0, 100000});
+  section.add("roi-width", options.roi_width, "px",
+              "region of interest: width, 0 = to the right border", {0, 100000});
+  section.add("roi-height", options.roi_height, "px",
+              "region of interest: height, 0 = to the lower border", {0, 100000});
+  section.add("ground-plane", options.ground_plane,
+              "find gravity and the sensor's height from the ground where nobody told them");
+}
+
+}  // namespace limbcast::reconstructor

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "common/config/options.hpp"
+
+namespace limbcast::reconstructor {
+
+/// Options of the reconstructor, with their defaults.
+struct ReconstructorOptions {
+  double near_limit_m = 1.0;  ///< nearest depth; sets the disparities searched
+  double far_limit_m = 12.0;  ///< points beyond are dropped
+  double image_scale = 1.0;   ///< of the rectified images against the camera's, (0, 1]
+  /// Region of interest in the rectified left image [px]; 0 = to the image's border.
+  int roi_x = 0, roi_y = 0, roi_width = 0, roi_height = 0;
+  bool ground_plane =
+      true;  ///< find gravity and the sensor's height from the ground where nobody told them
+};
+
+void declare(config::Section& section, ReconstructorOptions& options);
+
+}  // namespace limbcast::reconstructor

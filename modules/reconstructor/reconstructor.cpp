@@ -1,0 +1,116 @@
+#include "modules/reconstructor/reconstructor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/cloud/ground_plane.hpp"
+#include "modules/reconstructor/depth_to_cloud.hpp"
+#include "modules/reconstructor/matcher.hpp"
+#include "modules/reconstructor/triangulation.hpp"
+
+namespace limbcast::reconstructor {
+namespace {
+
+void check_limits(const ReconstructorOptions& options) {
+  if (options.near_limit_m < options.far_limit_m) return;
+  std::ostringstream text;
+  text << "near-limit-m (" << options.near_limit_m << ") must be less than far-limit-m ("
+       << options.far_limit_m << ")";
+  throw std::invalid_argument(text.str());
+}
+
+cv::Rect region_of_interest(const ReconstructorOptions& options, const PinholeCamera& camera) {
+  const cv::Rect image(0, 0, camera.width, camera.height);
+  const cv::Rect wanted(
+      options.roi_x, options.roi_y,
+      options.roi_width > 0 ? options.roi_width : std::max(0, camera.width - options.roi_x),
+      options.roi_height > 0 ? options.roi_height : std::max(0, camera.height - options.roi_y));
+  const cv::Rect roi = wanted & image;
+  if (roi.empty()) throw std::invalid_argument("region of interest lies outside the image");
+  return roi;
+}
+
+/// The frame's gravity, or the mounting's where the frame has none.
+Gravity gravity_of(const Stamp& stamp, const Mounting& mounting) {
+  Gravity gravity = stamp.gravity;
+  if (gravity.source == GravitySource::kLevel && mounting.down) {
+    gravity.down = mounting.down->cast<float>().normalized();
+    gravity.source = GravitySource::kOption;
+  }
+  if (!gravity.sensor_height_m && mounting.sensor_height_m)
+    gravity.sensor_height_m = static_cast<float>(*mounting.sensor_height_m);
+  return gravity;
+}
+
+/// Gives the cloud the frame's stamp, keeping the noise that the cloud's maker stated.
+void stamp_cloud(Cloud& cloud, const Stamp& stamp, const Mounting& mounting, bool find_ground,
+                 const char* frame_suffix) {
+  const DepthNoise noise = cloud.stamp.depth_noise;
+  cloud.stamp = stamp;
+  cloud.stamp.depth_noise = noise;
+  cloud.stamp.gravity = gravity_of(stamp, mounting);
+  if (cloud.stamp.frame.empty()) cloud.stamp.frame = stamp.sensor + frame_suffix;
+  if (find_ground) complete_gravity(cloud);
+}
+
+}  // namespace
+
+StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
+                                         const ReconstructorOptions& options)
+    : options_(options),
+      mounting_(calibration.mounting),
+      rectifier_(calibration, options.image_scale),
+      roi_(region_of_interest(options, rectifier_.camera())) {
+  check_limits(options);
+  const double focal_baseline = rectifier_.camera().fx * rectifier_.baseline_m();
+  num_disparities_ =
+      std::min(static_cast<int>(std::ceil(focal_baseline / options.near_limit_m)) + 1,
+               rectifier_.camera().width);
+}
+
+DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {
+  MatcherParams params;
+  params.num_disparities = num_disparities_;
+  // A pixel's match stands up to num_disparities further left.
+  const int left_edge = std::max(0, roi_.x - num_disparities_);
+  const cv::Rect searched(left_edge, roi_.y, roi_.x + roi_.width - left_edge, roi_.height);
+  const DisparityImage found =
+      reconstructor::match(pair.left(searched), pair.right(searched), params);
+  if (roi_.size() == pair.left.size()) return found;
+  const cv::Rect inner(roi_.x - left_edge, 0, roi_.width, roi_.height);
+  DisparityImage result{cv::Mat1f(pair.left.size(), 0.0F), cv::Mat1b(pair.left.size(), uchar{0})};
+  found.disparity_px(inner).copyTo(result.disparity_px(roi_));
+  found.confidence(inner).copyTo(result.confidence(roi_));
+  return result;
+}
+
+Cloud StereoReconstructor::reconstruct(const StereoImages& images) const {
+  const RectifiedPair pair = rectifier_.rectify(images.left, images.right);
+  TriangulationParams params;
+  params.near_limit_m = options_.near_limit_m;
+  params.far_limit_m = options_.far_limit_m;
+  Cloud cloud =
+      triangulate(match(pair), pair.left, rectifier_.camera(), rectifier_.baseline_m(), params);
+  stamp_cloud(cloud, images.stamp, mounting_, options_.ground_plane, "/left_rectified");
+  return cloud;
+}
+
+DepthReconstructor::DepthReconstructor(DepthCalibration calibration,
+                                       const ReconstructorOptions& options)
+    : calibration_(std::move(calibration)), options_(options) {
+  check_limits(options);
+}
+
+Cloud DepthReconstructor::reconstruct(const DepthImages& images) const {
+  DepthToCloudParams params;
+  params.near_limit_m = std::min(params.near_limit_m, options_.near_limit_m);
+  params.far_limit_m = options_.far_limit_m;
+  Cloud cloud = depth_to_cloud(images.depth, images.color, calibration_, params);
+  stamp_cloud(cloud, images.stamp, calibration_.mounting, options_.ground_plane, "/color");
+  return cloud;
+}
+
+}  // namespace limbcast::reconstructor

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "common/camera/calibration.hpp"
+#include "common/camera/images.hpp"
+#include "modules/reconstructor/disparity.hpp"
+#include "modules/reconstructor/options.hpp"
+#include "modules/reconstructor/rectifier.hpp"
+
+namespace limbcast::reconstructor {
+
+/// From a pair of images to an organised, coloured cloud: rectify, match, triangulate, find the
+/// ground.
+class StereoReconstructor {
+ public:
+  /// Throws std::invalid_argument where calibration and options do not fit together.
+  StereoReconstructor(const StereoCalibration& calibration, const ReconstructorOptions& options);
+
+  Cloud reconstruct(const StereoImages& images) const;
+
+  /// Disparities of a rectified pair; outside the region of interest there are none.
+  DisparityImage match(const RectifiedPair& pair) const;
+
+  const Rectifier& rectifier() const { return rectifier_; }
+  int num_disparities() const { return num_disparities_; }
+
+ private:
+  ReconstructorOptions options_;
+  Mounting mounting_;
+  Rectifier rectifier_;
+  int num_disparities_ = 0;
+  cv::Rect roi_;
+};
+
+/// From a depth camera's frame to an organised, coloured cloud.
+class DepthReconstructor {
+ public:
+  DepthReconstructor(DepthCalibration calibration, const ReconstructorOptions& options);
+
+  Cloud reconstruct(const DepthImages& images) const;
+
+ private:
+  DepthCalibration calibration_;
+  ReconstructorOptions options_;
+};
+
+}  // namespace limbcast::reconstructor

@@ -1,0 +1,136 @@
+#include "modules/reconstructor/rectifier.hpp"
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace limbcast::reconstructor {
+namespace {
+
+cv::Matx33d camera_matrix(const PinholeCamera& camera) {
+  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+}
+
+template <int kRows, int kColumns>
+cv::Matx<double, kRows, kColumns> to_cv(const Eigen::Matrix<double, kRows, kColumns>& matrix) {
+  cv::Matx<double, kRows, kColumns> result;
+  cv::eigen2cv(matrix, result);
+  return result;
+}
+
+Rectification compute_rectification(const StereoCalibration& calibration) {
+  const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
+  cv::Mat R1, R2, P1, P2, Q;
+  cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
+                    camera_matrix(calibration.right.camera), calibration.right.distortion, size,
+                    to_cv<3, 3>(calibration.R), to_cv<3, 1>(calibration.T), R1, R2, P1, P2, Q,
+                    cv::CALIB_ZERO_DISPARITY, 0.0, size);
+  Rectification result;
+  cv::cv2eigen(R1, result.R1);
+  cv::cv2eigen(R2, result.R2);
+  cv::cv2eigen(P1, result.P1);
+  cv::cv2eigen(P2, result.P2);
+  return result;
+}
+
+/// Baseline of P2 = [f 0 cx -f*B; ...]; throws where the pair is no left and right one.
+double checked_baseline_m(const Rectification& rectification) {
+  const double focal_px = rectification.P2(0, 0);
+  if (!(focal_px > 0.0)) throw std::invalid_argument("calibration: focal length in P2 must be > 0");
+  const double baseline_m = -rectification.P2(0, 3) / focal_px;
+  std::ostringstream text;
+  if (std::abs(rectification.P2(1, 3)) > std::abs(rectification.P2(0, 3))) {
+    text << "calibration: the cameras stand above one another (P2 says "
+         << -rectification.P2(1, 3) / focal_px << " m); only side by side is supported";
+    throw std::invalid_argument(text.str());
+  }
+  if (!(baseline_m > 0.0)) {
+    text << "calibration: the baseline is " << baseline_m
+         << " m, must be > 0: left and right are swapped";
+    throw std::invalid_argument(text.str());
+  }
+  return baseline_m;
+}
+
+bool is_identity(const LensCalibration& lens, const Eigen::Matrix3d& rotation,
+                 const PinholeCamera& rectified) {
+  constexpr double kSamePx = 1e-3;  // far below what a match can tell
+  for (const double coefficient : lens.distortion)
+    if (coefficient != 0.0) return false;
+  const PinholeCamera& camera = lens.camera;
+  return rotation.isApprox(Eigen::Matrix3d::Identity(), 1e-9) && camera.width == rectified.width &&
+         camera.height == rectified.height && std::abs(camera.fx - rectified.fx) < kSamePx &&
+         std::abs(camera.fy - rectified.fy) < kSamePx &&
+         std::abs(camera.cx - rectified.cx) < kSamePx &&
+         std::abs(camera.cy - rectified.cy) < kSamePx;
+}
+
+PinholeCamera scaled(const PinholeCamera& camera, double scale) {
+  PinholeCamera result = camera;
+  result.width = static_cast<int>(std::lround(camera.width * scale));
+  result.height = static_cast<int>(std::lround(camera.height * scale));
+  const double scale_x = static_cast<double>(result.width) / camera.width;
+  const double scale_y = static_cast<double>(result.height) / camera.height;
+  result.fx *= scale_x;
+  result.fy *= scale_y;
+  // Pixel centres are whole numbers, so the image begins at -0.5.
+  result.cx = (camera.cx + 0.5) * scale_x - 0.5;
+  result.cy = (camera.cy + 0.5) * scale_y - 0.5;
+  return result;
+}
+
+void check_size(const cv::Mat& image, const PinholeCamera& lens, const char* side) {
+  if (image.cols == lens.width && image.rows == lens.height) return;
+  std::ostringstream text;
+  text << side << " image is " << image.cols << "x" << image.rows << ", the calibration says "
+       << lens.width << "x" << lens.height;
+  throw std::invalid_argument(text.str());
+}
+
+}  // namespace
+
+Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
+    : lens_left_(calibration.left.camera), lens_right_(calibration.right.camera) {
+  if (lens_left_.width <= 0 || lens_left_.height <= 0)
+    throw std::invalid_argument("calibration: image size must be > 0");
+  const Rectification rectification =
+      calibration.rectification ? *calibration.rectification : compute_rectification(calibration);
+  baseline_m_ = checked_baseline_m(rectification);
+  const PinholeCamera full{lens_left_.width,       lens_left_.height,      rectification.P1(0, 0),
+                           rectification.P1(1, 1), rectification.P1(0, 2), rectification.P1(1, 2)};
+  camera_ = scaled(full, image_scale);
+
+  // Both images are resampled with the left camera's matrix, so that a point at infinity has
+  // disparity 0 even where the calibration gives the two different principal points.
+  const auto make_maps = [&](const LensCalibration& lens, const Eigen::Matrix3d& rotation) {
+    Maps maps;
+    if (is_identity(lens, rotation, full)) return maps;
+    cv::initUndistortRectifyMap(camera_matrix(lens.camera), lens.distortion, to_cv<3, 3>(rotation),
+                                camera_matrix(full), cv::Size(full.width, full.height), CV_16SC2,
+                                maps.xy, maps.fraction);
+    return maps;
+  };
+  left_maps_ = make_maps(calibration.left, rectification.R1);
+  right_maps_ = make_maps(calibration.right, rectification.R2);
+}
+
+cv::Mat Rectifier::resample(const cv::Mat& image, const Maps& maps) const {
+  cv::Mat result = image;
+  if (!maps.xy.empty()) cv::remap(image, result, maps.xy, maps.fraction, cv::INTER_LINEAR);
+  const cv::Size size(camera_.width, camera_.height);
+  if (result.size() == size) return result;
+  cv::Mat smaller;
+  cv::resize(result, smaller, size, 0.0, 0.0, cv::INTER_AREA);
+  return smaller;
+}
+
+RectifiedPair Rectifier::rectify(const cv::Mat& left, const cv::Mat& right) const {
+  check_size(left, lens_left_, "left");
+  check_size(right, lens_right_, "right");
+  return {resample(left, left_maps_), resample(right, right_maps_)};
+}
+
+}  // namespace limbcast::reconstructor

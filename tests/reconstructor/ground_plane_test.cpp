@@ -1,0 +1,79 @@
+#include "common/cloud/ground_plane.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace limbcast {
+namespace {
+
+/// What a camera at `height_m`, pitched down by `pitch_rad`, sees of a floor and a wall 5 m away;
+/// with a table of 0.7 m if asked.
+Cloud room(double height_m, double pitch_rad, bool with_floor = true, bool with_table = false) {
+  Cloud cloud;
+  const PinholeCamera camera{160, 120, 130.0, 130.0, 79.5, 59.5};
+  cloud.camera = camera;
+  cloud.width = camera.width;
+  cloud.height = camera.height;
+  const Eigen::Vector3f down(0.0F, std::cos(pitch_rad), std::sin(pitch_rad));
+  const Eigen::Vector3f ahead(0.0F, -std::sin(pitch_rad), std::cos(pitch_rad));
+  for (int v = 0; v < cloud.height; ++v) {
+    for (int u = 0; u < cloud.width; ++u) {
+      const Eigen::Vector3f ray = camera.back_project(u, v, 1.0F);
+      float z_m = 5.0F / ahead.dot(ray);
+      const float to_floor = static_cast<float>(height_m) / down.dot(ray);
+      const float to_table = static_cast<float>(height_m - 0.7) / down.dot(ray);
+      if (with_floor && to_floor > 0.0F) z_m = std::min(z_m, to_floor);
+      if (with_table && to_table > 1.5F && to_table < 3.0F && std::abs(ray.x()) < 0.3F)
+        z_m = std::min(z_m, to_table);
+      cloud.points_m.push_back(camera.back_project(u, v, z_m));
+    }
+  }
+  return cloud;
+}
+
+TEST(GroundPlane, FindsFloorOfAPitchedCamera) {
+  const auto ground = find_ground_plane(room(1.3, 0.35, true, true), {0.0F, 1.0F, 0.0F});
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->height_m, 1.3F, 0.005F);
+  EXPECT_NEAR(std::atan2(ground->down.z(), ground->down.y()), 0.35, 0.003);
+}
+
+TEST(GroundPlane, FindsNoneOnAWall) {
+  EXPECT_FALSE(find_ground_plane(room(1.3, 0.2, false), {0.0F, 1.0F, 0.0F}));
+}
+
+TEST(GroundPlane, FindsNoneInAnEmptyCloud) {
+  EXPECT_FALSE(find_ground_plane(Cloud{}, {0.0F, 1.0F, 0.0F}));
+}
+
+TEST(CompleteGravity, TakesTheFloorWhereNobodyToldGravity) {
+  Cloud cloud = room(1.1, 0.3);
+  complete_gravity(cloud);
+  EXPECT_EQ(cloud.stamp.gravity.source, GravitySource::kGroundPlane);
+  EXPECT_NEAR(cloud.stamp.gravity.down.z(), std::sin(0.3F), 0.003F);
+  ASSERT_TRUE(cloud.stamp.gravity.sensor_height_m);
+  EXPECT_NEAR(*cloud.stamp.gravity.sensor_height_m, 1.1F, 0.01F);
+}
+
+TEST(CompleteGravity, KeepsToldGravityAndAddsTheHeight) {
+  Cloud cloud = room(1.1, 0.3);
+  const Eigen::Vector3f told(0.0F, std::cos(0.31F), std::sin(0.31F));  // half a degree off
+  cloud.stamp.gravity.down = told;
+  cloud.stamp.gravity.source = GravitySource::kRecording;
+  complete_gravity(cloud);
+  EXPECT_EQ(cloud.stamp.gravity.source, GravitySource::kRecording);
+  EXPECT_EQ(cloud.stamp.gravity.down, told);
+  ASSERT_TRUE(cloud.stamp.gravity.sensor_height_m);
+  EXPECT_NEAR(*cloud.stamp.gravity.sensor_height_m, 1.1F, 0.05F);
+}
+
+TEST(CompleteGravity, StaysLevelWithoutGround) {
+  Cloud cloud = room(1.1, 0.3, false);
+  complete_gravity(cloud);
+  EXPECT_EQ(cloud.stamp.gravity.source, GravitySource::kLevel);
+  EXPECT_FALSE(cloud.stamp.gravity.sensor_height_m);
+}
+
+}  // namespace
+}  // namespace limbcast

@@ -1,0 +1,112 @@
+// Prints how well matchers do on people, against the truth of the rendered recordings:
+//   matching-accuracy [STEP]     every STEP-th frame (1: all)
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "modules/reconstructor/reconstructor.hpp"
+#include "tests/reconstructor/matching_figures.hpp"
+#include "tests/reconstructor/stereo_truth.hpp"
+
+namespace {
+
+using namespace limbcast;
+using reconstructor::RectifiedPair;
+using reconstructor::StereoReconstructor;
+
+/// OpenCV's matchers on the pair padded at the left, so that they lose no columns either.
+cv::Mat1f run_opencv(cv::StereoMatcher& matcher, const RectifiedPair& pair) {
+  const int border = matcher.getNumDisparities();
+  cv::Mat left, right, found;
+  cv::cvtColor(pair.left, left, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(pair.right, right, cv::COLOR_BGR2GRAY);
+  cv::copyMakeBorder(left, left, 0, 0, border, 0, cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(right, right, 0, 0, border, 0, cv::BORDER_REPLICATE);
+  matcher.compute(left, right, found);
+  cv::Mat1f disparity;
+  found.colRange(border, found.cols).convertTo(disparity, CV_32F, 1.0 / 16.0);
+  return cv::max(disparity, 0.0F);
+}
+
+struct Matcher {
+  std::string name;
+  std::function<cv::Mat1f(const StereoReconstructor&, const RectifiedPair&)> run;
+};
+
+std::vector<Matcher> matchers() {
+  const auto rounded = [](const StereoReconstructor& r) {
+    return (r.num_disparities() + 15) / 16 * 16;
+  };
+  return {{"OpenCV BM 9",
+           [=](const StereoReconstructor& r, const RectifiedPair& pair) {
+             return run_opencv(*cv::StereoBM::create(rounded(r), 9), pair);
+           }},
+          {"OpenCV SGBM 3-way",
+           [=](const StereoReconstructor& r, const RectifiedPair& pair) {
+             const auto sgbm = cv::StereoSGBM::create(0, rounded(r), 5, 200, 800, 1, 0, 10, 100, 2,
+                                                      cv::StereoSGBM::MODE_SGBM_3WAY);
+             return run_opencv(*sgbm, pair);
+           }},
+          {"limbcast", [](const StereoReconstructor& r, const RectifiedPair& pair) {
+             return cv::Mat1f(r.match(pair).disparity_px);
+           }}};
+}
+
+void print_row(const std::string& name, const test::MatchingFigures& f, double ms) {
+  std::printf("%-20s %6.1f %6.2f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.3f %7.1f\n", name.c_str(),
+              100.0 * f.valid_share(), 100.0 * f.bad_share(), f.median_error_px(), f.mad_px(),
+              f.window_error_px(), f.locking_px(), f.precision(), f.recall(), f.thin_recall(), ms);
+}
+
+struct Tally {
+  test::MatchingFigures tuning, checking;
+  double seconds = 0.0;
+  int frames = 0;
+};
+
+void evaluate(const std::string& set, int step, const std::vector<Matcher>& all,
+              std::vector<Tally>& tallies) {
+  const std::string folder = test::stereo_dev_folder() + "/" + set;
+  const StereoReconstructor reconstructor(test::read_stereo_calibration(folder), {});
+  const double focal_baseline =
+      reconstructor.rectifier().camera().fx * reconstructor.rectifier().baseline_m();
+  const auto names = test::frame_names(folder);
+  for (std::size_t i = 0; i < names.size(); i += step) {
+    const auto frame = test::read_true_frame(folder, names[i], focal_baseline);
+    const RectifiedPair pair = reconstructor.rectifier().rectify(frame.left, frame.right);
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      const auto start = std::chrono::steady_clock::now();
+      const cv::Mat1f disparity = all[m].run(reconstructor, pair);
+      tallies[m].seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      ++tallies[m].frames;
+      (frame.is_tuning ? tallies[m].tuning : tallies[m].checking).add(disparity, frame);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int step = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
+  const std::vector<Matcher> all = matchers();
+  std::printf("%-20s %6s %6s %7s %7s %7s %7s %7s %7s %7s %7s\n", "", "valid%", "bad2%", "median",
+              "MAD", "window", "locking", "precis.", "recall", "thin", "ms");
+  for (const std::vector<std::string>& sets :
+       {std::vector<std::string>{"pointing", "general"}, {"multi"}, {"distorted"}, {"hd"}}) {
+    std::vector<Tally> tallies(all.size());
+    for (const std::string& set : sets) evaluate(set, step, all, tallies);
+    std::printf("%s%s\n", sets[0].c_str(), sets.size() > 1 ? ", general" : "");
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      const double ms = 1e3 * tallies[m].seconds / tallies[m].frames;
+      print_row(all[m].name + ", tuning", tallies[m].tuning, ms);
+      print_row(all[m].name + ", check", tallies[m].checking, ms);
+    }
+  }
+  return 0;
+}
