@@ -1,0 +1,231 @@
+#include "modules/pose_fitter/refined/arm_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+constexpr int kCellPx = 3;
+/// Lengths and radii along the arm, in statures.
+constexpr Real kUpperArm = 0.147, kForearm = 0.1465, kToHand = 0.05;
+constexpr Real kUpperArmRadius = 0.030, kElbowRadius = 0.026, kForearmRadius = 0.022,
+               kWristRadius = 0.018;
+/// A sample that cannot be: cost.
+constexpr Real kImpossible = 4.0;
+constexpr Real kOutsideImage = 0.8, kInHole = 0.5;
+constexpr Real kUnexplainedReward = 1.5;
+/// Costs beyond which a half arm, a whole arm is given up.
+constexpr Real kHalfArmLimit = 6.0, kArmLimit = 8.0;
+/// An elbow may stand so far before the line shoulder-wrist [statures].
+constexpr Real kElbowAheadLimit = 0.06, kElbowAheadSigma = 0.04;
+/// Postures nearer than this at elbow and wrist are the same [m].
+constexpr Real kSamePostureM = 0.14;
+constexpr std::size_t kReachTargets = 120;
+constexpr int kSwivels = 12;
+
+/// Evenly spread unit vectors (Fibonacci lattice).
+std::vector<Vec3> sphere(int count) {
+  constexpr Real kGoldenAngle = 2.39996322972865332;
+  std::vector<Vec3> directions;
+  for (int i = 0; i < count; ++i) {
+    const Real z = 1.0 - (2.0 * i + 1.0) / count, r = std::sqrt(1.0 - z * z);
+    directions.emplace_back(r * std::cos(i * kGoldenAngle), r * std::sin(i * kGoldenAngle), z);
+  }
+  return directions;
+}
+
+}  // namespace
+
+struct ArmSearch::Frame {
+  Frame(const BodyState& body, int side)
+      : body_rotation(body.rotation),
+        shoulder(body.points[kShoulder + side]),
+        neck(body.points[kNeck]),
+        outwards(body.rotation.col(0) * side_sign(side)),
+        up(body.rotation.col(1)),
+        front(body.front()),
+        stature(body.stature_m()),
+        sign(side_sign(side)) {}
+
+  /// Upper arms do not go far across the body or behind it.
+  bool upper_arm_possible(const Vec3& direction) const {
+    const Real out = direction.dot(outwards), forward = direction.dot(front);
+    return out >= -0.75 && forward >= -0.75 && (out >= -0.2 || forward >= 0.0);
+  }
+  Real elbow_ahead(const Vec3& elbow, const Vec3& wrist) const {
+    return (elbow - 0.5 * (shoulder + wrist)).dot(front) / stature;
+  }
+  static Real elbow_cost(Real ahead) {
+    return ahead > 0.0 ? ahead * ahead / (kElbowAheadSigma * kElbowAheadSigma) : 0.0;
+  }
+
+  Mat3 body_rotation;
+  Vec3 shoulder, neck, outwards, up, front;
+  Real stature, sign;
+};
+
+ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params)
+    : observation_(observation), directions_(sphere(params.arm_directions)) {
+  const PinholeCamera& camera = observation.camera;
+  grid_width_ = (camera.width + kCellPx - 1) / kCellPx;
+  grid_height_ = (camera.height + kCellPx - 1) / kCellPx;
+  for (int v = 0; v < camera.height; v += kCellPx) {
+    for (int u = 0; u < camera.width; u += kCellPx) {
+      const float z = observation.surface_m[observation.at(u, v)];
+      if (z <= 0.0F) continue;
+      grid_points_.add(
+          camera.back_project(static_cast<float>(u), static_cast<float>(v), z).cast<Real>(), 1.0F,
+          observation.noise.sigma_m(z));
+      grid_cells_.push_back(v / kCellPx * grid_width_ + u / kCellPx);
+    }
+  }
+}
+
+void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {
+  nearest_cones(grid_points_, make_cones_of(body), explained, workspace_);
+  unexplained_.assign(static_cast<std::size_t>(grid_width_) * grid_height_, 0.0F);
+  for (std::size_t i = 0; i < grid_points_.size(); ++i) {
+    const float beyond = workspace_.distance[i] - 0.02F - grid_points_.sigma_m[i];
+    unexplained_[grid_cells_[i]] = std::clamp(beyond / 0.06F, 0.0F, 1.0F);
+  }
+}
+
+Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
+  if (center.z() < 0.3) return kImpossible;
+  const PinholeCamera& camera = observation_.camera;
+  const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
+  const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
+  if (!observation_.in_sensor_image(u, v)) return kOutsideImage;
+  if (!observation_.inside(u, v)) return kImpossible;
+  const std::size_t pixel = observation_.at(u, v);
+  Real cost = 0.0;
+  const Real outside =
+      (0.6 * radius - observation_.clearance_px[pixel] * center.z() / camera.fx) / 0.03;
+  if (outside > 0.0) cost += std::min(kImpossible, outside * outside);
+  const Real surface = observation_.surface_m[pixel];
+  if (surface <= 0.0) return cost + kInHole;
+  const Real behind = center.z() - 0.85 * radius - surface;
+  const Real sigma = 0.04 + observation_.noise.sigma_m(static_cast<float>(surface));
+  const Real sigmas2 = behind * behind / (sigma * sigma);
+  cost += behind < 0.0 ? std::min(kImpossible, sigmas2) : std::min(1.0, 0.6 * sigmas2);
+  if (sigmas2 < 4.0) {
+    const float unexplained =
+        unexplained_[static_cast<std::size_t>(v / kCellPx) * grid_width_ + u / kCellPx];
+    cost -= kUnexplainedReward * unexplained * (1.0 - 0.25 * sigmas2);
+  }
+  return cost;
+}
+
+void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) const {
+  const Real upper = kUpperArm * arm.stature, fore = kForearm * arm.stature;
+  for (const Vec3& upper_direction : directions_) {
+    if (!arm.upper_arm_possible(upper_direction)) continue;
+    const Vec3 elbow = arm.shoulder + upper * upper_direction;
+    const Real half_cost =
+        sample_cost(arm.shoulder + 0.5 * upper * upper_direction, kUpperArmRadius * arm.stature) +
+        sample_cost(elbow, kElbowRadius * arm.stature);
+    if (half_cost > kHalfArmLimit) continue;
+    for (const Vec3& fore_direction : directions_) {
+      if (upper_direction.dot(fore_direction) < -0.82) continue;
+      const Vec3 wrist = elbow + fore * fore_direction;
+      const Real ahead = arm.elbow_ahead(elbow, wrist);
+      if (ahead > kElbowAheadLimit) continue;
+      Real cost = half_cost +
+                  sample_cost(elbow + 0.5 * fore * fore_direction, kForearmRadius * arm.stature) +
+                  sample_cost(wrist, kWristRadius * arm.stature);
+      if (cost > kArmLimit) continue;
+      cost +=
+          sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
+          Frame::elbow_cost(ahead);
+      found.push_back({cost, elbow, wrist});
+    }
+  }
+}
+
+void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPosture>& found) const {
+  const Real upper = kUpperArm * arm.stature, fore = kForearm * arm.stature;
+  Vec3 wrist = surface * (1.0 + kWristRadius * arm.stature / surface.norm());
+  // The shoulder as it stands when the arm goes there.
+  const Vec3 lift = arm.body_rotation.transpose() * (wrist - arm.shoulder).normalized();
+  const Vec3 shoulder =
+      arm.neck + arm.body_rotation *
+                     (arm.stature * Vec3(arm.sign * 0.0985, -0.0602 + 0.0225 * lift.y(), 0.0074));
+  const Real distance = (wrist - shoulder).norm();
+  if (distance > upper + fore + 0.05 * arm.stature || distance < 0.08 * arm.stature) return;
+  const Vec3 along = (wrist - shoulder) / distance;
+  Real to_foot = upper, height = 0.0;
+  if (distance >= 0.985 * (upper + fore)) {
+    wrist = shoulder + along * (upper + fore);
+  } else {
+    to_foot = (upper * upper - fore * fore + distance * distance) / (2.0 * distance);
+    height = std::sqrt(std::max(0.0, upper * upper - to_foot * to_foot));
+  }
+  const Vec3 first = along.cross(arm.up).normalized(), second = along.cross(first);
+  const int swivels = height < 0.02 * arm.stature ? 1 : kSwivels;
+  for (int k = 0; k < swivels; ++k) {
+    const Real angle = 2.0 * M_PI * k / kSwivels;
+    const Vec3 elbow =
+        shoulder + along * to_foot + height * (std::cos(angle) * first + std::sin(angle) * second);
+    const Real ahead = arm.elbow_ahead(elbow, wrist);
+    if (ahead > kElbowAheadLimit) continue;
+    const Vec3 upper_direction = (elbow - shoulder) / upper;
+    if (upper_direction.dot(arm.outwards) < -0.8 || upper_direction.dot(arm.front) < -0.8) continue;
+    const Vec3 fore_direction = (wrist - elbow).normalized();
+    const Real cost =
+        sample_cost(0.5 * (shoulder + elbow), kUpperArmRadius * arm.stature) +
+        sample_cost(elbow, kElbowRadius * arm.stature) +
+        sample_cost(0.5 * (elbow + wrist), kForearmRadius * arm.stature) +
+        sample_cost(wrist, kWristRadius * arm.stature) +
+        sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
+        Frame::elbow_cost(ahead);
+    if (cost < kArmLimit) found.push_back({cost, elbow, wrist});
+  }
+}
+
+void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const {
+  const auto point = [&](std::size_t i) {
+    return Vec3(grid_points_.x[i], grid_points_.y[i], grid_points_.z[i]);
+  };
+  std::vector<std::size_t> unexplained;
+  for (std::size_t i = 0; i < grid_points_.size(); ++i) {
+    if (unexplained_[grid_cells_[i]] > 0.3F) unexplained.push_back(i);
+  }
+  const std::size_t step = std::max<std::size_t>(1, unexplained.size() / kReachTargets);
+  for (std::size_t i = 0; i < unexplained.size(); i += step)
+    reach(arm, point(unexplained[i]), found);
+  const std::size_t all_step = std::max<std::size_t>(1, grid_points_.size() / kReachTargets);
+  for (std::size_t i = all_step / 2; i < grid_points_.size(); i += all_step)
+    reach(arm, point(i), found);
+}
+
+std::vector<ArmPosture> ArmSearch::postures(const BodyState& body, int side, unsigned explained,
+                                            int count) {
+  mark_unexplained(body, explained);
+  const Frame arm(body, side);
+  std::vector<ArmPosture> found;
+  by_directions(arm, found);
+  by_reaching(arm, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const ArmPosture& a, const ArmPosture& b) { return a.cost < b.cost; });
+  std::vector<ArmPosture> best;
+  for (const ArmPosture& posture : found) {
+    const bool known = std::any_of(best.begin(), best.end(), [&](const ArmPosture& other) {
+      return (posture.wrist - other.wrist).norm() < kSamePostureM &&
+             (posture.elbow - other.elbow).norm() < kSamePostureM;
+    });
+    if (known) continue;
+    best.push_back(posture);
+    if (static_cast<int>(best.size()) >= count) break;
+  }
+  return best;
+}
+
+void set_arm(BodyState& body, int side, const ArmPosture& posture) {
+  body.points[kElbow + side] = posture.elbow;
+  body.points[kWrist + side] = posture.wrist;
+  body.points[kHand + side] = posture.wrist + 0.3 * (posture.wrist - posture.elbow);
+}
+
+}  // namespace limbcast::pose_fitter::refined

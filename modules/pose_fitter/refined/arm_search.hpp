@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/pose_fitter/refined/cost.hpp"
+
+namespace limbcast::pose_fitter::refined {
+
+struct ArmPosture {
+  Real cost = 0.0;
+  Vec3 elbow, wrist;
+};
+
+/// Looks for postures of one arm all around, where the solver would only find the nearest: by
+/// directions of upper arm and forearm, and by reaching for the points (those first that no other
+/// part explains).
+class ArmSearch {
+ public:
+  ArmSearch(const Observation& observation, const RefinedParams& params);
+
+  /// The best `count` postures that differ from one another, for the arm of `side` of `body`;
+  /// points near the body's `explained` parts are taken as theirs.
+  std::vector<ArmPosture> postures(const BodyState& body, int side, unsigned explained, int count);
+
+ private:
+  struct Frame;
+  void mark_unexplained(const BodyState& body, unsigned explained);
+  Real sample_cost(const Vec3& center, Real radius) const;
+  void by_directions(const Frame& arm, std::vector<ArmPosture>& found) const;
+  void by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const;
+  void reach(const Frame& arm, const Vec3& wrist_surface, std::vector<ArmPosture>& found) const;
+
+  const Observation& observation_;
+  std::vector<Vec3> directions_;
+  int grid_width_ = 0, grid_height_ = 0;
+  PointColumns grid_points_;        ///< own points on every third pixel
+  std::vector<int> grid_cells_;     ///< their cells
+  std::vector<float> unexplained_;  ///< by cell, 0 to 1
+  Workspace workspace_;
+};
+
+void set_arm(BodyState& body, int side, const ArmPosture& posture);
+
+}  // namespace limbcast::pose_fitter::refined

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/pose_fitter/refined/body_state.hpp"
+#include "modules/pose_fitter/refined/cone_equations.hpp"
+#include "modules/pose_fitter/refined/normal_equations.hpp"
+#include "modules/pose_fitter/refined/observation.hpp"
+
+namespace limbcast::pose_fitter::refined {
+
+/// Which parts of the body are fitted to which points, how closely.
+struct FitStage {
+  const PointColumns* points;
+  unsigned parts;
+  Real surface_sigma_m;
+};
+
+/// What the terms of the cost add up to, for looking at.
+struct CostTerms {
+  Real surface = 0.0, free_space = 0.0, priors = 0.0;
+  Real total() const { return surface + free_space + priors; }
+};
+
+/// Buffers of one evaluation, kept to spare allocation.
+struct Workspace {
+  std::vector<float> distance, place;
+  std::vector<std::int32_t> cone;
+  ConeEquations cones;
+};
+
+/// Points lie on the surface of the nearest cone.
+void add_surface_term(const Cones& cones, const FitStage& stage, Real robust_sigmas,
+                      Workspace& workspace, NormalEquations& equations);
+
+/// No part stands where the sensor saw through or before the surface it saw.
+void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
+                         Real weight, Workspace& workspace, NormalEquations& equations);
+
+/// What is known of bodies without looking: proportions, joint limits, parts not in one another,
+/// the ground.
+void add_prior_terms(const BodyState& body, const Cones& cones, const Observation& observation,
+                     unsigned parts, const RefinedParams& params, NormalEquations& equations);
+
+/// Nearest cone of each point: signed distance to its surface [m], place on its axis (0 to 1), its
+/// index.
+void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,
+                   Workspace& workspace);
+
+/// The whole cost; its normal equations too when `derivatives` are wanted.
+CostTerms evaluate(const BodyState& body, const Observation& observation, const FitStage& stage,
+                   const RefinedParams& params, bool derivatives, Workspace& workspace,
+                   NormalEquations& equations);
+
+}  // namespace limbcast::pose_fitter::refined

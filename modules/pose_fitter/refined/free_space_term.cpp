@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+
+#include "modules/pose_fitter/refined/cost.hpp"
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+/// Samples on each cone's axis.
+constexpr int kSamples = 4;
+/// A sample must stand this share of its radius inside the silhouette: cones are a little fatter
+/// than limbs at the rim, and silhouettes are ragged.
+constexpr Real kRadiusShare = 0.75;
+constexpr Real kClearanceSigmaM = 0.015;
+constexpr Real kClearanceLimitSigmas = 10.0;
+/// The skin stands this share of the radius before the axis.
+constexpr Real kDepthShare = 0.8;
+constexpr Real kDepthSigmaM = 0.02;
+constexpr Real kDepthLimitSigmas = 6.0;
+constexpr Real kNearestM = 0.3;
+
+/// Clearance at a pixel and its gradient [px].
+struct Clearance {
+  Real value = 0.0;
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+};
+
+Clearance clearance_at(const Observation& observation, int u, int v) {
+  const int width = observation.camera.width, height = observation.camera.height;
+  const auto value = [&](int x, int y) {
+    return static_cast<Real>(observation.clearance_px[observation.at(x, y)]);
+  };
+  if (u >= 1 && v >= 1 && u < width - 1 && v < height - 1) {
+    return {value(u, v),
+            {0.5 * (value(u + 1, v) - value(u - 1, v)), 0.5 * (value(u, v + 1) - value(u, v - 1))}};
+  }
+  // Outside the grid the clearance falls with the distance to it.
+  const int nearest_u = std::clamp(u, 1, width - 2), nearest_v = std::clamp(v, 1, height - 2);
+  const Eigen::Vector2d away(u - nearest_u, v - nearest_v);
+  const Real distance = away.norm();
+  return {std::min(0.0, value(nearest_u, nearest_v)) - distance, -away / (distance + 1e-9)};
+}
+
+struct Sample {
+  int cone;
+  Real t;
+};
+
+}  // namespace
+
+void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
+                         Real weight, Workspace& workspace, NormalEquations& equations) {
+  const PinholeCamera& camera = observation.camera;
+  const bool derivatives = equations.derivatives();
+  Real cost = 0.0;
+  const auto add = [&](const Sample& sample, Real residual, Real sigma, Real limit,
+                       const Vec3& gradient) {
+    const Real information = 1.0 / (sigma * sigma);
+    const Real ratio = information * residual * residual / (limit * limit),
+               shrink = 1.0 / (1.0 + ratio);
+    cost += weight * 0.5 * limit * limit * ratio * shrink;
+    if (derivatives) {
+      workspace.cones.add(sample.cone, sample.t, gradient, 0.0, residual,
+                          weight * information * shrink * shrink);
+    }
+  };
+  for (int c = 0; c < kConeCount; ++c) {
+    const Part part = cone_specs()[c].part;
+    if ((bit(part) & parts) == 0) continue;
+    // A limb's cone starts where its parent's ends.
+    for (int k = part == Part::kTrunk ? 0 : 1; k <= kSamples; ++k) {
+      const Sample sample{c, static_cast<Real>(k) / kSamples};
+      const Vec3 center = cones[c].point(sample.t);
+      if (center.z() < kNearestM) continue;
+      const Real radius = cones[c].radius(sample.t);
+      const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
+      const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
+      const bool inside = observation.inside(u, v);
+      if (!inside && !observation.in_sensor_image(u, v)) continue;
+      const Clearance clearance = clearance_at(observation, u, v);
+      const Real outside = kRadiusShare * radius - clearance.value * center.z() / camera.fx;
+      if (outside > 0.0) {
+        add(sample, outside, kClearanceSigmaM, kClearanceLimitSigmas,
+            {-clearance.gradient.x(), -clearance.gradient.y(), 0.0});
+      }
+      const Real surface = inside ? observation.surface_m[observation.at(u, v)] : 0.0;
+      if (surface <= 0.0) continue;
+      const Real sigma = kDepthSigmaM + observation.noise.sigma_m(static_cast<float>(surface));
+      const Real before = surface - (center.z() - kDepthShare * radius) - 0.5 * sigma;
+      if (before > 0.0) add(sample, before, sigma, kDepthLimitSigmas, {0.0, 0.0, -1.0});
+    }
+  }
+  equations.cost += cost;
+}
+
+}  // namespace limbcast::pose_fitter::refined

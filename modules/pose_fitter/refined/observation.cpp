@@ -1,0 +1,215 @@
+#include "modules/pose_fitter/refined/observation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+/// Head's centre behind the skin the sensor sees [m] (data/README: 9 cm).
+constexpr Real kHeadDepthM = 0.09;
+/// An own pixel farther than this in depth from the head is an error of the segmentation [m].
+constexpr float kMaxDepthFromHeadM = 1.1F;
+/// What is this much nearer than the person's median hides what may be behind it [m].
+constexpr float kOccluderGapM = 0.25F;
+/// Half width of the window that averages noisy depth [px], and how far a neighbour may be
+/// [sigmas].
+constexpr int kSmoothingRadiusPx = 3;
+constexpr float kSmoothingSigmas = 3.5F;
+/// Border kept around the person's pixels [px].
+constexpr int kMarginPx = 40;
+/// Weight 1 is an area of two squares of this side [m].
+constexpr float kWeightSideM = 0.03F;
+
+/// Virtual camera for points without a range image.
+constexpr double kVirtualFocalPx = 150.0;
+
+/// Range image of the points alone: what lies beside them is unknown.
+RangeImage rendered(const Segment& segment) {
+  RangeImage image;
+  Eigen::Vector3f forward = segment.seed_m.normalized();
+  const Eigen::Vector3f right = Eigen::Vector3f(0, 1, 0).cross(forward).normalized();
+  image.frame_from_image << right, forward.cross(right), forward;
+  PinholeCamera& camera = image.camera;
+  camera.width = camera.height = image.full_width = image.full_height =
+      static_cast<int>(2.0 * kVirtualFocalPx);
+  camera.fx = camera.fy = kVirtualFocalPx;
+  camera.cx = camera.cy = kVirtualFocalPx;
+  const std::size_t pixels = static_cast<std::size_t>(camera.width) * camera.height;
+  image.depth_m.assign(pixels, 0.0F);
+  image.labels.assign(pixels, PixelLabel::kUnknown);
+  for (const Eigen::Vector3f& point : segment.points_m) {
+    const Eigen::Vector3f p = image.frame_from_image.transpose() * point;
+    if (p.z() < 0.1F) continue;
+    const Eigen::Vector2f pixel = camera.project(p);
+    const int u = static_cast<int>(std::lround(pixel.x())),
+              v = static_cast<int>(std::lround(pixel.y()));
+    if (u < 0 || v < 0 || u >= camera.width || v >= camera.height) continue;
+    const std::size_t i = static_cast<std::size_t>(v) * camera.width + u;
+    if (image.depth_m[i] > 0.0F && image.depth_m[i] < p.z()) continue;
+    image.depth_m[i] = p.z();
+    image.labels[i] = PixelLabel::kPerson;
+  }
+  return image;
+}
+
+struct Box {
+  int u0, v0, u1, v1;
+};
+
+/// Box of the person's pixels and the median of their depth; nothing when they are too few.
+std::optional<Box> person_box(const RangeImage& image, float head_z, int min_points,
+                              float& median_z) {
+  Box box{image.camera.width, image.camera.height, -1, -1};
+  std::vector<float> depths;
+  for (int v = 0; v < image.camera.height; ++v) {
+    for (int u = 0; u < image.camera.width; ++u) {
+      const std::size_t i = static_cast<std::size_t>(v) * image.camera.width + u;
+      if (image.labels[i] != PixelLabel::kPerson) continue;
+      box = {std::min(box.u0, u), std::min(box.v0, v), std::max(box.u1, u), std::max(box.v1, v)};
+      const float z = image.depth_m[i];
+      if (z > 0.0F && std::abs(z - head_z) < kMaxDepthFromHeadM) depths.push_back(z);
+    }
+  }
+  if (static_cast<int>(depths.size()) < min_points) return std::nullopt;
+  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
+  median_z = depths[depths.size() / 2];
+  return box;
+}
+
+/// Fills clearance and surface on the person's box with a margin.
+void make_grids(const RangeImage& image, const Box& box, float head_z, float median_z,
+                Observation& observation) {
+  PinholeCamera& camera = observation.camera;
+  const int u0 = box.u0 - kMarginPx, v0 = box.v0 - kMarginPx;
+  camera = image.camera;
+  camera.width = box.u1 - box.u0 + 1 + 2 * kMarginPx;
+  camera.height = box.v1 - box.v0 + 1 + 2 * kMarginPx;
+  camera.cx -= u0;
+  camera.cy -= v0;
+  observation.origin_u = image.origin_u + u0;
+  observation.origin_v = image.origin_v + v0;
+  observation.full_width = image.full_width;
+  observation.full_height = image.full_height;
+  cv::Mat may_stand(camera.height, camera.width, CV_8U);
+  observation.surface_m.assign(static_cast<std::size_t>(camera.width) * camera.height, 0.0F);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      std::uint8_t free = 1;
+      const int iu = u + u0, iv = v + v0;
+      if (observation.in_sensor_image(u, v) && iu >= 0 && iv >= 0 && iu < image.camera.width &&
+          iv < image.camera.height) {
+        const std::size_t i = static_cast<std::size_t>(iv) * image.camera.width + iu;
+        const float z = image.depth_m[i];
+        if (image.labels[i] == PixelLabel::kOther) {
+          free = z < median_z - kOccluderGapM;
+        } else if (image.labels[i] == PixelLabel::kPerson &&
+                   std::abs(z - head_z) < kMaxDepthFromHeadM) {
+          observation.surface_m[observation.at(u, v)] = z;
+        }
+      }
+      may_stand.at<std::uint8_t>(v, u) = free;
+    }
+  }
+  cv::Mat inwards, outwards;
+  cv::distanceTransform(may_stand, inwards, cv::DIST_L2, 3);
+  cv::distanceTransform(1 - may_stand, outwards, cv::DIST_L2, 3);
+  const cv::Mat clearance = inwards - outwards;
+  observation.clearance_px.assign(clearance.begin<float>(), clearance.end<float>());
+}
+
+/// Mean of the inverse depth over a window: stereo's noise is white in disparity.
+void smooth_surface(Observation& observation) {
+  const DepthNoise& noise = observation.noise;
+  if (noise.quadratic_per_m <= 0.0F) return;
+  const int width = observation.camera.width, height = observation.camera.height;
+  std::vector<float> inverse(observation.surface_m.size(), 0.0F);
+  std::transform(observation.surface_m.begin(), observation.surface_m.end(), inverse.begin(),
+                 [](float z) { return z > 0.0F ? 1.0F / z : 0.0F; });
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const float center = inverse[observation.at(u, v)];
+      if (center <= 0.0F) continue;
+      const float limit =
+          kSmoothingSigmas * (noise.quadratic_per_m + noise.constant_m * center * center);
+      float sum = 0.0F;
+      int count = 0;
+      for (int y = std::max(0, v - kSmoothingRadiusPx);
+           y <= std::min(height - 1, v + kSmoothingRadiusPx); ++y) {
+        for (int x = std::max(0, u - kSmoothingRadiusPx);
+             x <= std::min(width - 1, u + kSmoothingRadiusPx); ++x) {
+          const float other = inverse[observation.at(x, y)];
+          if (other > 0.0F && std::abs(other - center) < limit) {
+            sum += other;
+            ++count;
+          }
+        }
+      }
+      observation.surface_m[observation.at(u, v)] = static_cast<float>(count) / sum;
+    }
+  }
+}
+
+PointColumns sampled(const Observation& observation, int step, double reach_m) {
+  PointColumns points;
+  const PinholeCamera& camera = observation.camera;
+  for (int v = 0; v < camera.height; v += step) {
+    for (int u = 0; u < camera.width; u += step) {
+      const float z = observation.surface_m[observation.at(u, v)];
+      if (z <= 0.0F) continue;
+      const Vec3 point =
+          camera.back_project(static_cast<float>(u), static_cast<float>(v), z).cast<Real>();
+      if ((point - observation.head_start).norm() > reach_m) continue;
+      const float side =
+          z / static_cast<float>(camera.fx) * static_cast<float>(step) / kWeightSideM;
+      points.add(point, 0.5F * side * side, observation.noise.sigma_m(z));
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+void PointColumns::add(const Vec3& point, float point_weight, float point_sigma_m) {
+  x.push_back(static_cast<float>(point.x()));
+  y.push_back(static_cast<float>(point.y()));
+  z.push_back(static_cast<float>(point.z()));
+  weight.push_back(point_weight);
+  sigma_m.push_back(point_sigma_m);
+}
+
+std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
+                                   const RefinedParams& params) {
+  if (!segment.range_image && static_cast<int>(segment.points_m.size()) < params.min_points) {
+    return std::nullopt;
+  }
+  const RangeImage& image = segment.range_image ? *segment.range_image : rendered(segment);
+  Observation observation;
+  observation.frame_from_image = image.frame_from_image;
+  observation.noise = stamp.depth_noise;
+  const Vec3 seed = (image.frame_from_image.transpose() * segment.seed_m).cast<Real>();
+  if (!(seed.norm() > 0.1)) return std::nullopt;
+  observation.head_start = seed + kHeadDepthM * seed.normalized();
+  observation.up = -(image.frame_from_image.transpose() * stamp.gravity.down).cast<Real>();
+  if (stamp.gravity.sensor_height_m) observation.floor_m = *stamp.gravity.sensor_height_m;
+
+  float median_z = 0.0F;
+  const float head_z = static_cast<float>(seed.z());
+  const std::optional<Box> box = person_box(image, head_z, params.min_points, median_z);
+  if (!box) return std::nullopt;
+  make_grids(image, *box, head_z, median_z, observation);
+  smooth_surface(observation);
+  const auto own_pixels = std::count_if(observation.surface_m.begin(), observation.surface_m.end(),
+                                        [](float z) { return z > 0.0F; });
+  const int step = std::max(1, static_cast<int>(std::lround(std::sqrt(
+                                   static_cast<double>(own_pixels) / params.target_points))));
+  observation.fine = sampled(observation, step, params.reach_m);
+  observation.coarse = sampled(observation, 2 * step, params.reach_m);
+  if (static_cast<int>(observation.fine.size()) < params.min_points) return std::nullopt;
+  return observation;
+}
+
+}  // namespace limbcast::pose_fitter::refined

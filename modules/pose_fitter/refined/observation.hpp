@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/cloud/segment.hpp"
+#include "modules/pose_fitter/refined/body_model.hpp"
+#include "modules/pose_fitter/refined/refined_params.hpp"
+
+namespace limbcast::pose_fitter::refined {
+
+/// Points in columns, so that the compiler works on several at once.
+struct PointColumns {
+  std::vector<float> x, y, z;  ///< [m]
+  std::vector<float> weight;   ///< area that the point stands for, in units of 18 cm^2
+  std::vector<float> sigma_m;  ///< of the distance along the ray
+
+  std::size_t size() const { return x.size(); }
+  void add(const Vec3& point, float point_weight, float point_sigma_m);
+};
+
+/// What the sensor saw of one person, made ready for many looks, in the range image's frame.
+struct Observation {
+  PointColumns fine, coarse;  ///< coarse: a quarter of the points
+
+  PinholeCamera camera;  ///< of the grids below
+  int origin_u = 0, origin_v = 0, full_width = 0,
+      full_height = 0;  ///< place in the sensor's image [px]
+  /// Distance to where the sensor saw through [px]: positive where a body may stand, negative
+  /// outside.
+  std::vector<float> clearance_px;
+  std::vector<float> surface_m;  ///< the person's own surface along the optical axis, 0 = none
+  DepthNoise noise;
+
+  Vec3 up;                      ///< against gravity
+  Vec3 head_start;              ///< first guess of the head's centre
+  std::optional<Real> floor_m;  ///< place of the floor along -up, where it is known
+  Eigen::Matrix3f frame_from_image = Eigen::Matrix3f::Identity();
+
+  bool inside(int u, int v) const {
+    return u >= 0 && v >= 0 && u < camera.width && v < camera.height;
+  }
+  /// In the sensor's own image, the crop's pixels given: beyond it nothing is known.
+  bool in_sensor_image(int u, int v) const {
+    const int full_u = u + origin_u, full_v = v + origin_v;
+    return full_u >= 0 && full_v >= 0 && full_u < full_width && full_v < full_height;
+  }
+  std::size_t at(int u, int v) const { return static_cast<std::size_t>(v) * camera.width + u; }
+};
+
+/// Nothing when there are too few points for a person.
+std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
+                                   const RefinedParams& params);
+
+}  // namespace limbcast::pose_fitter::refined

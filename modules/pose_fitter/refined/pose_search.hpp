@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/pose_fitter/refined/arm_search.hpp"
+#include "modules/pose_fitter/refined/solver.hpp"
+
+namespace limbcast::pose_fitter::refined {
+
+struct PoseCandidate {
+  Real cost = 0.0;
+  BodyState body;
+};
+
+/// Finds the body of least cost: from trunk and legs alone at many rotations, over arm postures, to
+/// moves that leave a wrong minimum.
+class PoseSearch {
+ public:
+  PoseSearch(const Observation& observation, const RefinedParams& params);
+
+  /// Candidates that were refined on all points, best first; never empty.
+  std::vector<PoseCandidate> run();
+  Solver& solver() { return solver_; }
+  /// All points, all parts, the final spread of the surface.
+  FitStage final_stage() const;
+
+ private:
+  std::vector<PoseCandidate> trunk_starts();
+  PoseCandidate with_arms(const BodyState& start);
+  void move(PoseCandidate& pose);
+  bool try_flip(PoseCandidate& pose);
+  bool try_legs(PoseCandidate& pose);
+  bool try_arm(PoseCandidate& pose, int side);
+  bool accept(BodyState body, int iterations, PoseCandidate& pose);
+
+  const Observation& observation_;
+  const RefinedParams& params_;
+  Solver solver_;
+  ArmSearch arms_;
+};
+
+}  // namespace limbcast::pose_fitter::refined

@@ -1,0 +1,271 @@
+#include <algorithm>
+#include <cmath>
+
+#include "modules/pose_fitter/refined/cost.hpp"
+
+// Lengths and spreads without a unit are in statures; spreads of proportions are those of adults
+// (ANSUR II) found again on the tuning half, those of postures are wide and chosen there.
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+constexpr Real kUprightSigma = 0.12;         // sine of the trunk's lean to the side
+constexpr Real kUprightForwardSigma = 0.18;  // and to the front
+constexpr Real kLogGirthSigma = 0.10;
+constexpr Real kHeadStartSigmaM = 0.05;
+constexpr Real kSymmetrySigmaM = 0.006;
+constexpr Real kHandSigma = 0.012;
+constexpr Real kPenetrationSigmaM = 0.02;
+
+class Priors {
+ public:
+  Priors(const BodyState& body, const Cones& cones, NormalEquations& equations)
+      : body_(body), cones_(cones), equations_(equations), stature_(body.stature_m()) {}
+
+  /// Point against reference in the body's frame.
+  void offset(int point, int reference, const Vec3& mean, const Vec3& sigma) {
+    const Vec3 local = body_.rotation.transpose() * (body_.points[point] - body_.points[reference]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 direction = body_.rotation.col(axis);
+      equations_.start_row();
+      equations_.derivative_of_point(point, direction);
+      equations_.derivative_of_point(reference, -direction);
+      equations_.derivative(kLogStature, -stature_ * mean[axis]);
+      // R exp(w): the local vector turns by local x w.
+      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+      equations_.derivative(kRotation + next, -local[last]);
+      equations_.derivative(kRotation + last, local[next]);
+      equations_.add_residual(local[axis] - stature_ * mean[axis], sigma[axis] * stature_);
+    }
+  }
+
+  void bone(int from, int to, Real length, Real relative_sigma) {
+    const Vec3 between = body_.points[to] - body_.points[from];
+    const Real distance = between.norm() + 1e-9;
+    equations_.start_row();
+    equations_.derivative_of_point(to, between / distance);
+    equations_.derivative_of_point(from, -between / distance);
+    equations_.derivative(kLogStature, -length * stature_);
+    equations_.add_residual(distance - length * stature_, relative_sigma * length * stature_);
+  }
+
+  /// Left and right bone are of one length.
+  void symmetry(int from, int to) {
+    equations_.start_row();
+    Real difference = 0.0;
+    for (int side = 0; side < 2; ++side) {
+      const Vec3 between = body_.points[to + side] - body_.points[from + side];
+      const Real distance = between.norm() + 1e-9;
+      difference += side_sign(side) * distance;
+      equations_.derivative_of_point(to + side, side_sign(side) * between / distance);
+      equations_.derivative_of_point(from + side, -side_sign(side) * between / distance);
+    }
+    equations_.add_residual(difference, kSymmetrySigmaM);
+  }
+
+  /// The hand prolongs the forearm.
+  void hand(int side) {
+    constexpr Real kHandShare = 0.30;  // of the forearm, wrist to the hand's middle
+    const int elbow = kElbow + side, wrist = kWrist + side, hand = kHand + side;
+    const Vec3 residual = body_.points[hand] - body_.points[wrist] -
+                          kHandShare * (body_.points[wrist] - body_.points[elbow]);
+    for (int axis = 0; axis < 3; ++axis) {
+      equations_.start_row();
+      equations_.derivative(3 * hand + axis, 1.0);
+      equations_.derivative(3 * wrist + axis, -1.0 - kHandShare);
+      equations_.derivative(3 * elbow + axis, kHandShare);
+      equations_.add_residual(residual[axis], kHandSigma * stature_);
+    }
+  }
+
+  /// A knee does not bend backwards.
+  void knee(int side) {
+    const int hip = kHip + side, knee = kKnee + side, ankle = kAnkle + side;
+    const Vec3 front = body_.front();
+    const Real ahead =
+        front.dot(body_.points[knee] - 0.5 * (body_.points[hip] + body_.points[ankle])) -
+        0.01 * stature_;
+    if (ahead >= 0.0) return;
+    equations_.start_row();
+    equations_.derivative_of_point(knee, front);
+    equations_.derivative_of_point(hip, -0.5 * front);
+    equations_.derivative_of_point(ankle, -0.5 * front);
+    equations_.add_residual(ahead, 0.012 * stature_);
+  }
+
+  /// An elbow stands outwards, below and behind the line shoulder-wrist, and does not fold up
+  /// wholly.
+  void elbow(int side) {
+    const int shoulder = kShoulder + side, elbow = kElbow + side, wrist = kWrist + side;
+    const Vec3 local = body_.rotation.transpose() *
+                       (body_.points[elbow] - 0.5 * (body_.points[shoulder] + body_.points[wrist]));
+    const Vec3 mean(side_sign(side) * 0.015, -0.01, -0.012), sigma(0.05, 0.05, 0.035);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 direction = body_.rotation.col(axis);
+      equations_.start_row();
+      equations_.derivative_of_point(elbow, direction);
+      equations_.derivative_of_point(shoulder, -0.5 * direction);
+      equations_.derivative_of_point(wrist, -0.5 * direction);
+      equations_.add_residual(local[axis] - stature_ * mean[axis], sigma[axis] * stature_);
+    }
+    const Vec3 reach = body_.points[wrist] - body_.points[shoulder];
+    const Real distance = reach.norm() + 1e-9, folded = distance - 0.09 * stature_;
+    if (folded >= 0.0) return;
+    equations_.start_row();
+    equations_.derivative_of_point(wrist, reach / distance);
+    equations_.derivative_of_point(shoulder, -reach / distance);
+    equations_.add_residual(folded, 0.01 * stature_);
+  }
+
+  /// A point of an arm stands outside head and trunk.
+  void outside_trunk(int point) {
+    const Vec3& p = body_.points[point];
+    Real nearest = 0.0, place = 0.0;
+    Vec3 away = Vec3::Zero();
+    int inside = -1;
+    for (int c = 0; c < kConeCount; ++c) {
+      if (!cone_specs()[c].blocks_arms) continue;
+      const Real t = cones_[c].nearest(p);
+      const Vec3 from_axis = p - cones_[c].point(t);
+      const Real gap = from_axis.norm() - cones_[c].radius(t) - 0.02 * stature_;
+      if (gap < nearest) {
+        nearest = gap;
+        place = t;
+        away = from_axis;
+        inside = c;
+      }
+    }
+    if (inside < 0) return;
+    const Vec3 normal = away / (away.norm() + 1e-9);
+    equations_.start_row();
+    equations_.derivative_of_point(point, normal);
+    add_anchor(cone_specs()[inside].from, -(1.0 - place) * normal);
+    add_anchor(cone_specs()[inside].to, -place * normal);
+    equations_.add_residual(nearest, kPenetrationSigmaM);
+  }
+
+  /// Two limb segments do not go through each other.
+  void limbs_apart(int a0, int a1, int b0, int b1) {
+    constexpr int kSteps = 4;
+    Real best = 1e9, t = 0.0, u = 0.0;
+    Vec3 between = Vec3::Zero();
+    for (int i = 0; i <= kSteps; ++i) {
+      for (int j = 0; j <= kSteps; ++j) {
+        const Real ti = static_cast<Real>(i) / kSteps, uj = static_cast<Real>(j) / kSteps;
+        const Vec3 d = body_.points[a0] * (1 - ti) + body_.points[a1] * ti -
+                       body_.points[b0] * (1 - uj) - body_.points[b1] * uj;
+        if (d.squaredNorm() < best) {
+          best = d.squaredNorm();
+          t = ti;
+          u = uj;
+          between = d;
+        }
+      }
+    }
+    const Real distance = std::sqrt(best) + 1e-9, gap = distance - 0.045 * stature_;
+    if (gap >= 0.0) return;
+    between /= distance;
+    equations_.start_row();
+    equations_.derivative_of_point(a0, (1 - t) * between);
+    equations_.derivative_of_point(a1, t * between);
+    equations_.derivative_of_point(b0, -(1 - u) * between);
+    equations_.derivative_of_point(b1, -u * between);
+    equations_.add_residual(gap, kPenetrationSigmaM);
+  }
+
+  /// The trunk stands along gravity, less surely so to the front.
+  void upright(const Vec3& up) {
+    const Vec3 local = body_.rotation.transpose() * up;
+    equations_.start_row();
+    equations_.derivative(kRotation + 1, -local.z());
+    equations_.derivative(kRotation + 2, local.y());
+    equations_.add_residual(local.x(), kUprightSigma);
+    equations_.start_row();
+    equations_.derivative(kRotation, -local.y());
+    equations_.derivative(kRotation + 1, local.x());
+    equations_.add_residual(local.z(), kUprightForwardSigma);
+  }
+
+  void scalar(Unknown unknown, Real residual, Real sigma) {
+    equations_.start_row();
+    equations_.derivative(unknown, 1.0);
+    equations_.add_residual(residual, sigma);
+  }
+
+ private:
+  void add_anchor(const Anchor& anchor, const Vec3& derivative) {
+    for (const Weight& w : anchor) {
+      if (w.weight != 0.0) equations_.derivative_of_point(w.point, w.weight * derivative);
+    }
+  }
+
+  const BodyState& body_;
+  const Cones& cones_;
+  NormalEquations& equations_;
+  Real stature_;
+};
+
+void add_proportions(const BodyState& body, Priors& priors) {
+  for (const Offset& offset : body_offsets()) {
+    for (int side = 0; side < (offset.both_sides ? 2 : 1); ++side) {
+      Vec3 mean = offset.mean;
+      if (offset.point == kShoulder) {
+        Vec3 arm = body.rotation.transpose() *
+                   (body.points[kElbow + side] - body.points[kShoulder + side]);
+        arm.normalize();
+        arm.x() *= side_sign(side);
+        mean = shoulder_offset(arm);
+      }
+      if (side == 1) mean.x() = -mean.x();
+      // The neck, the pelvis and other middle references have no side.
+      const bool paired = offset.reference >= kShoulder;
+      priors.offset(offset.point + side, paired ? offset.reference + side : offset.reference, mean,
+                    offset.sigma);
+    }
+  }
+  for (const Bone& bone : bones()) {
+    for (int side = 0; side < 2; ++side) {
+      priors.bone(bone.from + side, bone.to + side, bone.length, bone.relative_sigma);
+    }
+  }
+  priors.symmetry(kShoulder, kElbow);
+  priors.symmetry(kElbow, kWrist);
+  priors.symmetry(kHip, kKnee);
+  priors.symmetry(kKnee, kAnkle);
+}
+
+void add_joint_limits(unsigned parts, Priors& priors) {
+  for (int side = 0; side < 2; ++side) {
+    priors.hand(side);
+    priors.knee(side);
+    priors.elbow(side);
+    if ((parts & arm_bit(side)) == 0) continue;
+    for (const int point : {kElbow, kWrist, kHand}) priors.outside_trunk(point + side);
+  }
+  if ((parts & kWithoutArms) == parts) return;
+  priors.limbs_apart(kElbow, kWrist, kElbow + 1, kWrist + 1);
+  priors.limbs_apart(kShoulder, kElbow, kElbow + 1, kWrist + 1);
+  priors.limbs_apart(kElbow, kWrist, kShoulder + 1, kElbow + 1);
+  priors.limbs_apart(kWrist, kHand, kWrist + 1, kHand + 1);
+}
+
+}  // namespace
+
+void add_prior_terms(const BodyState& body, const Cones& cones, const Observation& observation,
+                     unsigned parts, const RefinedParams& params, NormalEquations& equations) {
+  Priors priors(body, cones, equations);
+  add_proportions(body, priors);
+  add_joint_limits(parts, priors);
+  priors.scalar(kLogStature,
+                body.log_stature - std::log(params.mean_stature_m / kReferenceStatureM),
+                params.log_stature_sigma);
+  priors.scalar(kLogGirth, body.log_girth, kLogGirthSigma);
+  priors.upright(observation.up);
+  for (int axis = 0; axis < 3; ++axis) {
+    equations.start_row();
+    equations.derivative(3 * kHead + axis, 1.0);
+    equations.add_residual(body.points[kHead][axis] - observation.head_start[axis],
+                           kHeadStartSigmaM);
+  }
+}
+
+}  // namespace limbcast::pose_fitter::refined

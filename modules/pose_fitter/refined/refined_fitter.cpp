@@ -1,0 +1,33 @@
+#include "modules/pose_fitter/refined/refined_fitter.hpp"
+
+#include "modules/pose_fitter/refined/assessment.hpp"
+#include "modules/pose_fitter/refined/observation.hpp"
+#include "modules/pose_fitter/refined/pose_search.hpp"
+
+namespace limbcast::pose_fitter {
+namespace {
+
+void rotate(const Eigen::Matrix3f& rotation, BodyPose& pose) {
+  for (JointEstimate& joint : pose.joints) joint.position_m = rotation * joint.position_m;
+  for (Pointing& pointing : pose.pointing) {
+    pointing.direction = rotation * pointing.direction;
+    pointing.forearm = rotation * pointing.forearm;
+    pointing.head_hand = rotation * pointing.head_hand;
+  }
+}
+
+}  // namespace
+
+std::optional<BodyPose> RefinedFitter::fit(const Segment& segment, const Stamp& stamp) const {
+  const std::optional<refined::Observation> observation = refined::observe(segment, stamp, params_);
+  if (!observation) return std::nullopt;
+  refined::PoseSearch search(*observation, params_);
+  const std::vector<refined::PoseCandidate> candidates = search.run();
+  std::optional<BodyPose> pose = refined::assess(candidates, search.solver(), search.final_stage());
+  if (!pose) return std::nullopt;
+  rotate(observation->frame_from_image, *pose);
+  pose->id = segment.id;
+  return pose;
+}
+
+}  // namespace limbcast::pose_fitter

@@ -1,0 +1,46 @@
+#pragma once
+
+namespace limbcast::pose_fitter {
+
+/// Numbers of the refined fitter. Where an origin says "tuned", it was chosen on the tuning half of
+/// the rendered stereo and depth data; tests/accuracy/README.md has the figures.
+struct RefinedParams {
+  /// Points kept for the last refinement (a quarter of them during search). More is slower and a
+  /// little more exact. Tuned.
+  int target_points = 400;
+  /// Fewest points that can be a person.
+  int min_points = 40;
+  /// Points farther than this from the head's start are not the person's [m]: arm span of a tall
+  /// man.
+  double reach_m = 2.0;
+
+  /// Spread of the surface about the round cones: clothes, hair, muscles [m]. Measured: 8 to 16 mm
+  /// on true depth; the search uses more to widen the basin.
+  double surface_sigma_m = 0.02;
+  double search_surface_sigma_m = 0.05;
+  double arm_search_surface_sigma_m = 0.03;
+  /// Residuals beyond this many sigmas stop counting (Geman-McClure). Tuned.
+  double robust_sigmas = 2.0;
+  /// Cost of a body part where the sensor saw through, against the surface. Tuned.
+  double free_space_weight = 1.0;
+
+  /// Rotations tried about gravity: every 30 degrees; the solver converges from 25 degrees away.
+  int yaw_steps = 12;
+  /// Starts whose arms are searched. Tuned.
+  int starts_kept = 3;
+  /// Arm postures tried for each arm of a start. Tuned.
+  int arm_postures_per_start = 4;
+  /// Poses that the moves (flip, arms, legs) try to better, rounds of them, arm postures for each.
+  /// Tuned.
+  int poses_moved = 2;
+  int move_rounds = 3;
+  int arm_postures_per_move = 8;
+  /// Directions on the sphere for the upper arm and the forearm: 90 are 22 degrees apart.
+  int arm_directions = 90;
+
+  /// Mean stature [m] and spread of its logarithm: NHANES 2015-2018 adults, both sexes.
+  double mean_stature_m = 1.70;
+  double log_stature_sigma = 0.06;
+};
+
+}  // namespace limbcast::pose_fitter

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+
+#include "modules/pose_fitter/refined/cost.hpp"
+
+namespace limbcast::pose_fitter::refined {
+
+/// Levenberg-Marquardt on the cost. Holds buffers: one for each thread.
+class Solver {
+ public:
+  Solver(const Observation& observation, const RefinedParams& params);
+
+  /// Lowers the cost from `body` on, in at most `iterations` steps; returns the cost.
+  Real minimize(BodyState& body, const FitStage& stage, int iterations);
+  /// Cost and normal equations at `body`.
+  CostTerms evaluate_at(const BodyState& body, const FitStage& stage, NormalEquations& equations);
+
+  const Observation& observation() const { return observation_; }
+  const RefinedParams& params() const { return params_; }
+  long evaluations() const { return evaluations_; }
+
+ private:
+  const Observation& observation_;
+  const RefinedParams& params_;
+  Workspace workspace_;
+  std::unique_ptr<NormalEquations> current_, trial_;
+  long evaluations_ = 0;
+};
+
+}  // namespace limbcast::pose_fitter::refined
