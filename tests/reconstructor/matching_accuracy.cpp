@@ -72,7 +72,7 @@ struct Tally {
 void evaluate(const std::string& set, int step, const std::vector<Matcher>& all,
               std::vector<Tally>& tallies) {
   const std::string folder = test::stereo_dev_folder() + "/" + set;
-  const StereoReconstructor reconstructor(test::read_stereo_calibration(folder), {});
+  const StereoReconstructor reconstructor(test::read_calibration(folder), {});
   const double focal_baseline =
       reconstructor.rectifier().camera().fx * reconstructor.rectifier().baseline_m();
   const auto names = test::frame_names(folder);

@@ -76,7 +76,7 @@ TEST(Rectifier, UnifiesDifferentPrincipalPoints) {
 TEST(Rectifier, FindsTheRectificationThatTheCalibrationFileHas) {
   const std::string folder = test::stereo_dev_folder() + "/distorted";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
-  StereoCalibration calibration = test::read_stereo_calibration(folder);
+  StereoCalibration calibration = test::read_calibration(folder);
   const Rectifier given(calibration);
   calibration.rectification.reset();
   const Rectifier computed(calibration);

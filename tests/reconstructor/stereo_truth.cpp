@@ -5,52 +5,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/core/eigen.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/camera/calibration_io.hpp"
+
 namespace limbcast::test {
-namespace {
-
-template <class Matrix>
-Matrix read_matrix(const cv::FileStorage& file, const std::string& key) {
-  cv::Mat values;
-  file[key] >> values;
-  Matrix result;
-  cv::cv2eigen(values, result);
-  return result;
-}
-
-LensCalibration read_lens(const cv::FileStorage& file, const std::string& number) {
-  const auto matrix = read_matrix<Eigen::Matrix3d>(file, "K" + number);
-  cv::Mat1d distortion;
-  file["D" + number] >> distortion;
-  LensCalibration lens;
-  lens.camera = {static_cast<int>(file["image_width"]),
-                 static_cast<int>(file["image_height"]),
-                 matrix(0, 0),
-                 matrix(1, 1),
-                 matrix(0, 2),
-                 matrix(1, 2)};
-  lens.distortion.assign(distortion.begin(), distortion.end());
-  return lens;
-}
-
-}  // namespace
-
 std::string stereo_dev_folder() { return std::string(LIMBCAST_DATA_DIR) + "/stereo_dev"; }
 
-StereoCalibration read_stereo_calibration(const std::string& folder) {
-  const cv::FileStorage file(folder + "/calibration.yml", cv::FileStorage::READ);
-  StereoCalibration calibration;
-  calibration.left = read_lens(file, "1");
-  calibration.right = read_lens(file, "2");
-  calibration.R = read_matrix<Eigen::Matrix3d>(file, "R");
-  calibration.T = read_matrix<Eigen::Vector3d>(file, "T");
-  using Projection = Eigen::Matrix<double, 3, 4>;
-  calibration.rectification = Rectification{
-      read_matrix<Eigen::Matrix3d>(file, "R1"), read_matrix<Eigen::Matrix3d>(file, "R2"),
-      read_matrix<Projection>(file, "P1"), read_matrix<Projection>(file, "P2")};
-  return calibration;
+StereoCalibration read_calibration(const std::string& folder) {
+  return read_stereo_calibration(folder + "/calibration.yml");
 }
 
 std::vector<std::string> frame_names(const std::string& folder) {

@@ -11,8 +11,8 @@ namespace limbcast::test {
 /// Folder of rendered stereo recordings with truth; may be absent.
 std::string stereo_dev_folder();
 
-/// Calibration of a recording: its OpenCV YAML file.
-StereoCalibration read_stereo_calibration(const std::string& folder);
+/// Calibration of a recording.
+StereoCalibration read_calibration(const std::string& folder);
 
 /// Names of the frames of a recording without their endings, in order.
 std::vector<std::string> frame_names(const std::string& folder);
