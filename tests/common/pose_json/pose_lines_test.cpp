@@ -1,0 +1,119 @@
+#include "common/pose_json/pose_lines.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "common/input_error.hpp"
+
+namespace limbcast::pose_json {
+namespace {
+
+using testing::HasSubstr;
+
+BodyPoses one_person() {
+  BodyPoses poses;
+  poses.stamp.utime = 1768870000000000;
+  poses.stamp.sensor = "front";
+  BodyPose person;
+  person.id = 3;
+  person.error = 0.25F;
+  person.confidence = 0.5F;
+  person[Joint::kHead] = {true, {0.1F, -0.2F, 2.5F}, 0.75F, 0.03F, false};
+  Pointing arm;
+  arm.side = Side::kRight;
+  arm.direction = {0.0F, 0.0F, -1.0F};
+  arm.forearm = {0.0F, 0.6F, -0.8F};
+  arm.head_hand = {1.0F, 0.0F, 0.0F};
+  arm.sigma_rad = 0.034906585F;  // 2 degrees
+  arm.confidence = 0.9F;
+  person.pointing.push_back(arm);
+  poses.persons.push_back(person);
+  return poses;
+}
+
+std::string error_of(const std::string& line) {
+  try {
+    from_line(line, "poses.jsonl: line 7");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PoseLines, HaveTheKeysThatUsersRelyOn) {
+  const std::string line = to_line(one_person());
+  EXPECT_THAT(line, testing::StartsWith(R"({"utime":1768870000000000,)"));
+  EXPECT_THAT(line, HasSubstr(R"("head":[0.1,-0.2,2.5])"));
+  EXPECT_THAT(line, HasSubstr(R"("wrist_left":null)"));
+  EXPECT_THAT(line,
+              HasSubstr(R"("side":"right","direction":[0.0,0.0,-1.0],"forearm":[0.0,0.6,-0.8])"));
+  EXPECT_THAT(line, HasSubstr(R"("sigma_deg":2.0)"));
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
+TEST(PoseLines, SayNullWhereNobodyPointsAndEmptyWhereNobodyIs) {
+  BodyPoses poses = one_person();
+  poses.persons[0].pointing.clear();
+  EXPECT_THAT(to_line(poses), HasSubstr(R"("pointing":null)"));
+  poses.persons.clear();
+  EXPECT_THAT(to_line(poses), HasSubstr(R"("persons":[])"));
+}
+
+TEST(PoseLines, AreReadBackAsTheyWereWritten) {
+  const BodyPoses poses = from_line(to_line(one_person()), "here");
+  ASSERT_EQ(poses.persons.size(), 1U);
+  const BodyPose& person = poses.persons[0];
+  EXPECT_EQ(poses.stamp.utime, 1768870000000000);
+  EXPECT_EQ(poses.stamp.sensor, "front");
+  EXPECT_EQ(person.id, 3);
+  EXPECT_TRUE(person[Joint::kHead].valid);
+  EXPECT_FALSE(person[Joint::kNeck].valid);
+  EXPECT_NEAR(person[Joint::kHead].position_m.z(), 2.5F, 1e-6F);
+  EXPECT_NEAR(person[Joint::kHead].sigma_m, 0.03F, 1e-6F);
+  ASSERT_EQ(person.pointing.size(), 1U);
+  EXPECT_EQ(person.pointing[0].side, Side::kRight);
+  EXPECT_NEAR(person.pointing[0].sigma_rad, 0.0349066F, 1e-6F);
+}
+
+TEST(PoseLines, OfTheBareFormAreReadToo) {
+  const BodyPoses poses = from_line(
+      R"({"utime":5,"persons":[{"id":1,"error":0.1,"joints":{"head":[0,0,2]},"pointing":null}]})",
+      "here");
+  EXPECT_TRUE(poses.persons.at(0)[Joint::kHead].valid);
+  EXPECT_TRUE(poses.persons.at(0).pointing.empty());
+}
+
+TEST(PoseLines, ThatAreWrongAreNamedByFileLineAndField) {
+  EXPECT_THAT(error_of("{\"utime\":1"), HasSubstr("poses.jsonl: line 7: is no JSON"));
+  EXPECT_THAT(error_of("[]"), HasSubstr("'utime'"));
+  EXPECT_THAT(error_of(R"({"utime":1.5,"persons":[]})"),
+              HasSubstr("'utime' must be a whole number"));
+  EXPECT_THAT(error_of(R"({"utime":1})"), HasSubstr("'persons' is missing"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":{}})"), HasSubstr("'persons' must be a list"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{"head":[0,0]}}]})"),
+              HasSubstr("'head' must be three numbers"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{"head":[0,0,1e99]}}]})"),
+              HasSubstr("'head' is not finite"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{},"pointing":{"side":"up"}}]})"),
+              HasSubstr("'side' must be"));
+  EXPECT_THAT(
+      error_of(
+          R"({"utime":1,"persons":[{"joints":{},"pointing":{"side":"left","direction":[0,0,0]}}]})"),
+      HasSubstr("'direction' has no direction"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[7]})"), HasSubstr("no JSON object"));
+}
+
+TEST(PoseLines, AreCountedWithEmptyLines) {
+  std::istringstream in("{\"utime\":1,\"persons\":[]}\n\n{\"utime\":2}\n");
+  EXPECT_THAT([&] { read_lines(in, "f"); },
+              testing::ThrowsMessage<InputError>(HasSubstr("f: line 3: 'persons' is missing")));
+}
+
+TEST(PoseLines, OfAMissingFileAreAnError) {
+  EXPECT_THROW(read_file("/no/such/file.jsonl"), InputError);
+}
+
+}  // namespace
+}  // namespace limbcast::pose_json
