@@ -1,0 +1,92 @@
+#include "modules/segmenter/cluster_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace limbcast::segmenter {
+namespace {
+
+constexpr float kEdge_m = 0.15F;
+/// Cells of the outline: large against the spacing of points, small against a limb's length.
+constexpr float kCell_m = 0.05F;
+
+float quantile(std::vector<float>& values, double share) {
+  if (values.empty()) return 0.0F;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+float spread(std::vector<float>& values) {
+  constexpr std::size_t kFewest = 10;
+  return values.size() < kFewest ? 0.0F : quantile(values, 0.95) - quantile(values, 0.05);
+}
+
+/// Points of one cluster relative to the head's centre, and the surface each stands for.
+struct Cluster {
+  std::vector<Eigen::Vector3f> from_head_m;
+  double area_m2 = 0.0;
+};
+
+/// Outline area: cells across and up that hold a point.
+float outline_m2(const Cluster& cluster) {
+  std::set<std::pair<int, int>> cells;
+  for (const Eigen::Vector3f& p : cluster.from_head_m) {
+    cells.emplace(static_cast<int>(std::floor(p.x() / kCell_m)), static_cast<int>(std::floor(p.z() / kCell_m)));
+  }
+  return static_cast<float>(cells.size()) * kCell_m * kCell_m;
+}
+
+ClusterFigures measure(const Cluster& cluster, const ReachParams& reach) {
+  ClusterFigures figures;
+  figures.points = static_cast<int>(cluster.from_head_m.size());
+  if (figures.points == 0) return figures;
+  std::vector<float> across, up, head, shoulders, torso;
+  int edge = 0, over_head = 0;
+  double height_sum = 0.0;
+  for (const Eigen::Vector3f& p : cluster.from_head_m) {
+    across.push_back(p.x());
+    up.push_back(p.z());
+    height_sum += p.z();
+    if (std::abs(p.z()) < 0.07F) head.push_back(p.x());
+    if (p.z() < -0.20F && p.z() > -0.42F) shoulders.push_back(p.x());
+    if (p.z() < -0.45F && p.z() > -0.70F) torso.push_back(p.x());
+    edge += p.head<2>().norm() > reach.radius_m - kEdge_m ? 1 : 0;
+    over_head += p.z() > 0.14F && std::abs(p.x()) < 0.25F ? 1 : 0;
+  }
+  const auto count = static_cast<float>(figures.points);
+  figures.area_m2 = static_cast<float>(cluster.area_m2);
+  figures.head_width_m = spread(head);
+  figures.shoulder_width_m = spread(shoulders);
+  figures.torso_width_m = spread(torso);
+  figures.drop_m = -quantile(up, 0.01);
+  figures.rise_m = quantile(up, 0.995);
+  figures.edge_share = static_cast<float>(edge) / count;
+  figures.over_head_share = static_cast<float>(over_head) / count;
+  figures.offset_m = std::abs(quantile(across, 0.5));
+  figures.seed_over_centroid_m = static_cast<float>(-height_sum / figures.points);
+  figures.density = std::min(1.0F, figures.area_m2 / outline_m2(cluster));
+  return figures;
+}
+
+}  // namespace
+
+std::vector<ClusterFigures> measure_clusters(const Lattice& lattice, const std::vector<HeadCandidate>& heads,
+                                             const std::vector<std::int16_t>& labels, const ReachParams& reach) {
+  std::vector<Cluster> clusters(heads.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == kNobody) continue;
+    const auto k = static_cast<std::size_t>(labels[i]);
+    const float size_m = lattice.depth_m[i] / lattice.focal_px;
+    clusters[k].from_head_m.emplace_back(lattice.level_m[i] - heads[k].center_m);
+    clusters[k].area_m2 += size_m * size_m;
+  }
+  std::vector<ClusterFigures> figures;
+  figures.reserve(clusters.size());
+  for (const Cluster& cluster : clusters) figures.push_back(measure(cluster, reach));
+  return figures;
+}
+
+}  // namespace limbcast::segmenter

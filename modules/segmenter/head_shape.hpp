@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/params.hpp"
+
+namespace limbcast::segmenter {
+
+/// A place on the surface where growing may start.
+struct HeadCandidate {
+  int u = 0, v = 0;           ///< lattice
+  Eigen::Vector3f surface_m;  ///< point of the lattice there, level frame
+  Eigen::Vector3f center_m;   ///< of the head behind it, level frame
+  float score = 0.0F;         ///< template's, 0 to 2.48
+};
+
+/// Heads by their shape: something as large as a head, nothing of its depth beside and over it, shoulders under
+/// it. Best first. The template's sizes are those of an adult's head; a child's of 5 years is 0.9 times as large.
+std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapeParams& params);
+
+/// Centre of the head whose surface is seen at `surface_m` (both level frame).
+Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surface_m);
+
+}  // namespace limbcast::segmenter

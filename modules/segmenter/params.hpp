@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstdint>
+
+namespace limbcast::segmenter {
+
+/// Where growing starts.
+enum class SeedSource : std::int8_t {
+  kAuto,   ///< skin and shape for a cloud with colour, shape for one without
+  kSkin,   ///< skin-coloured parts (the paper)
+  kShape,  ///< heads found by their shape
+  kBoth,   ///< skin and shape
+};
+
+/// How a cluster grows from its seed.
+enum class Growing : std::int8_t {
+  kRefined,  ///< all heads together, along the surface, without the ground
+  kPaper,    ///< Algorithm 1, one seed after the other
+};
+
+/// What answers "which points are near" for Algorithm 1.
+enum class NeighborSearch : std::int8_t {
+  kAuto,     ///< the lattice for an organised cloud, the kd-tree for any other
+  kKdTree,   ///< the paper's choice
+  kLattice,  ///< organised clouds only
+};
+
+/// Ground plane, started from gravity. Only points above it can belong to a person.
+struct GroundParams {
+  /// Height the ground is searched under the sensor [m]: robots' sensors stand between these.
+  float min_sensor_height_m = 0.25F;
+  float max_sensor_height_m = 2.6F;
+  /// Largest angle between the ground's normal and gravity [rad]: error of an inertial unit (0.5 degrees)
+  /// and slope of indoor floors and yards. Larger takes ramps, and furniture, for ground.
+  float max_tilt_rad = 0.05F;
+  /// Points this far from the plane take part in its last fit [m]: three sigma of stereo at 3 m.
+  float inlier_distance_m = 0.04F;
+  /// Share of the cloud that must lie on the plane; with less no ground is in sight.
+  float min_share = 0.02F;
+};
+
+/// The reach of a human: cylinder about the gravity axis through the seed (paper, III-B.1).
+struct ReachParams {
+  /// Radius [m]: head axis to finger tips, arm stretched sideways: half the arm span of a 1.9 m person,
+  /// which equals half the stature (Vitruvius; ISO 7250 tables: 0.97 m).
+  float radius_m = 1.0F;
+  /// Above the seed [m]: a raised arm of a 1.9 m person reaches 0.65 m over the head's centre.
+  float above_m = 0.75F;
+  /// Below the seed [m]: head centre to sole of a 2.1 m person.
+  float below_m = 2.0F;
+};
+
+/// Algorithm 1 of the paper.
+struct PaperGrowingParams {
+  /// d_max [m]: a step between adjacent points of a surface; 0.05 to 0.10 give the same clusters on
+  /// stereo_dev/general, less breaks at 4 m (pixel spacing 9 mm, disparity step 30 mm).
+  float max_distance_m = 0.06F;
+  /// i_max: points whose neighbours are looked up. A person at 1.5 m covers 130,000 pixels of a VGA camera.
+  int max_iterations = 200000;
+};
+
+/// Growing from all heads together.
+struct JointGrowingParams {
+  /// Longest step between neighbours [m]: max(min_step_m, step_per_m2 * z^2), as depth noise grows.
+  float min_step_m = 0.06F;
+  float step_per_m2 = 0.012F;
+  /// Points lower than this over the ground are ground [m]: two sigma of stereo noise and the plane's error.
+  float ground_cut_m = 0.04F;
+  /// Longest way from the head along the surface [m]: crown to sole of a 2 m person, and a bend.
+  float max_way_m = 2.4F;
+  /// A step in depth costs this much more than one along the image: bodies that touch part there.
+  float depth_step_cost = 0.5F;
+  /// Radius about the head's axis below these heights (share of the head's height): legs stay under the body.
+  float shin_height = 0.30F, shin_radius_m = 0.75F;
+  float knee_height = 0.45F, knee_radius_m = 0.85F;
+  /// Points this near to the head's centre start the growing [m]: outer radius of a head.
+  float head_radius_m = 0.15F;
+};
+
+/// Ring template on the depth image.
+struct HeadShapeParams {
+  /// Depth where heads are searched [m].
+  float min_depth_m = 0.5F, max_depth_m = 8.0F;
+  /// Height of a head's centre over the ground [m]: a sitting child, a tall person.
+  float min_height_m = 0.50F, max_height_m = 2.15F;
+  /// Lowest score of a candidate; the score runs from 0 to 2.48.
+  float min_score = 1.9F;
+  /// Candidates nearer than this to a better one are the same head [m].
+  float separation_m = 0.22F;
+  /// Strongest candidates kept in a frame.
+  int max_candidates = 40;
+};
+
+/// Figures of a cluster around a head that a person's must keep (see cluster_figures.hpp).
+struct PersonParams {
+  float min_area_m2 = 0.09F;
+  float min_head_width_m = 0.07F, max_head_width_m = 0.34F;
+  float min_shoulder_width_m = 0.18F, max_shoulder_width_m = 1.25F;
+  float min_drop_m = 0.35F;
+  float max_edge_share = 0.12F;
+  float max_offset_m = 0.25F;
+};
+
+/// The four filters of section III-B.2.
+struct FilterParams {
+  /// Smallest and largest visible surface of a person [m^2], counted in points of the sensor at the
+  /// cluster's distance.
+  float min_area_m2 = 0.09F;
+  float max_area_m2 = 1.6F;
+  /// How far the seed must stand over the cluster's centroid along gravity [m].
+  float min_seed_over_centroid_m = 0.12F;
+  /// Share of the sensor's rays through the cluster's outline that must have hit it.
+  float min_density = 0.25F;
+};
+
+/// Skin-coloured parts.
+struct SkinParams {
+  /// Log of the likelihood ratio above which a colour is skin (Jones and Rehg 2002).
+  float min_log_ratio = 0.0F;
+  /// Surface of a part that may be a face or a hand [m^2].
+  float min_area_m2 = 0.0015F, max_area_m2 = 0.12F;
+  /// Fewest pixels of a part.
+  int min_pixels = 25;
+  /// Depth step that parts two skin-coloured surfaces [m].
+  float max_step_m = 0.08F;
+};
+
+struct Params {
+  SeedSource seeds = SeedSource::kAuto;
+  Growing growing = Growing::kRefined;
+  NeighborSearch search = NeighborSearch::kAuto;
+  GroundParams ground;
+  ReachParams reach;
+  PaperGrowingParams paper;
+  JointGrowingParams joint;
+  HeadShapeParams head;
+  PersonParams person;
+  FilterParams filters;
+  SkinParams skin;
+  /// Space kept around a cluster in its range image [m].
+  float range_image_margin_m = 0.15F;
+};
+
+}  // namespace limbcast::segmenter
