@@ -14,7 +14,8 @@ constexpr float kCell_m = 0.05F;
 
 float quantile(std::vector<float>& values, double share) {
   if (values.empty()) return 0.0F;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -34,7 +35,8 @@ struct Cluster {
 float outline_m2(const Cluster& cluster) {
   std::set<std::pair<int, int>> cells;
   for (const Eigen::Vector3f& p : cluster.from_head_m) {
-    cells.emplace(static_cast<int>(std::floor(p.x() / kCell_m)), static_cast<int>(std::floor(p.z() / kCell_m)));
+    cells.emplace(static_cast<int>(std::floor(p.x() / kCell_m)),
+                  static_cast<int>(std::floor(p.z() / kCell_m)));
   }
   return static_cast<float>(cells.size()) * kCell_m * kCell_m;
 }
@@ -73,8 +75,10 @@ ClusterFigures measure(const Cluster& cluster, const ReachParams& reach) {
 
 }  // namespace
 
-std::vector<ClusterFigures> measure_clusters(const Lattice& lattice, const std::vector<HeadCandidate>& heads,
-                                             const std::vector<std::int16_t>& labels, const ReachParams& reach) {
+std::vector<ClusterFigures> measure_clusters(const Lattice& lattice,
+                                             const std::vector<HeadCandidate>& heads,
+                                             const std::vector<std::int16_t>& labels,
+                                             const ReachParams& reach) {
   std::vector<Cluster> clusters(heads.size());
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == kNobody) continue;

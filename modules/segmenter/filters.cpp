@@ -14,7 +14,8 @@ std::optional<Rejection> not_head(bool fails) {
 
 std::optional<Rejection> check_validity(const ClusterFigures& figures, const FilterParams& params) {
   const auto points = static_cast<float>(figures.points);
-  // Limits are areas, so that they hold at any distance and resolution; the figures are points, as in the paper.
+  // Limits are areas, so that they hold at any distance and resolution; the figures are points, as
+  // in the paper.
   const float points_per_m2 = figures.area_m2 > 0.0F ? points / figures.area_m2 : 0.0F;
   if (figures.area_m2 < params.min_area_m2) {
     return Rejection{SegmentFilter::kTooFewPoints, points, params.min_area_m2 * points_per_m2};
@@ -23,7 +24,8 @@ std::optional<Rejection> check_validity(const ClusterFigures& figures, const Fil
     return Rejection{SegmentFilter::kTooManyPoints, points, params.max_area_m2 * points_per_m2};
   }
   if (figures.seed_over_centroid_m < params.min_seed_over_centroid_m) {
-    return Rejection{SegmentFilter::kSeedNotHead, figures.seed_over_centroid_m, params.min_seed_over_centroid_m};
+    return Rejection{SegmentFilter::kSeedNotHead, figures.seed_over_centroid_m,
+                     params.min_seed_over_centroid_m};
   }
   if (figures.density < params.min_density) {
     return Rejection{SegmentFilter::kTooSparse, figures.density, params.min_density};
@@ -32,10 +34,13 @@ std::optional<Rejection> check_validity(const ClusterFigures& figures, const Fil
 }
 
 std::optional<Rejection> check_person(const ClusterFigures& figures, const PersonParams& params) {
-  return not_head(figures.head_width_m < params.min_head_width_m || figures.head_width_m > params.max_head_width_m ||
+  return not_head(figures.head_width_m < params.min_head_width_m ||
+                  figures.head_width_m > params.max_head_width_m ||
                   figures.shoulder_width_m < params.min_shoulder_width_m ||
-                  figures.shoulder_width_m > params.max_shoulder_width_m || figures.drop_m < params.min_drop_m ||
-                  figures.edge_share > params.max_edge_share || figures.offset_m > params.max_offset_m);
+                  figures.shoulder_width_m > params.max_shoulder_width_m ||
+                  figures.drop_m < params.min_drop_m ||
+                  figures.edge_share > params.max_edge_share ||
+                  figures.offset_m > params.max_offset_m);
 }
 
 }  // namespace limbcast::segmenter

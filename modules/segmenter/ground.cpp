@@ -1,6 +1,7 @@
 #include "modules/segmenter/ground.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -17,7 +18,8 @@ std::vector<Eigen::Vector3f> sample(const Cloud& cloud) {
   std::vector<Eigen::Vector3f> points;
   points.reserve(kSamples + 1);
   const std::size_t stride = std::max<std::size_t>(1, cloud.points_m.size() / kSamples);
-  // A stride that shares no factor with the lattice's width would walk along columns; odd ones spread.
+  // A stride that shares no factor with the lattice's width would walk along columns; odd ones
+  // spread.
   for (std::size_t i = 0; i < cloud.points_m.size(); i += stride | 1U) {
     const Eigen::Vector3f& point = cloud.points_m[i];
     if (!cloud.is_hole(i) && point.allFinite()) points.push_back(point);
@@ -26,8 +28,9 @@ std::vector<Eigen::Vector3f> sample(const Cloud& cloud) {
 }
 
 /// Height of the sensor over the layer that holds many points and has few below it.
-std::optional<float> lowest_layer(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& down,
-                                  float min_m, float max_m, float min_count) {
+std::optional<float> lowest_layer(const std::vector<Eigen::Vector3f>& points,
+                                  const Eigen::Vector3f& down, float min_m, float max_m,
+                                  float min_count) {
   const int bins = static_cast<int>((max_m - min_m) / kBin_m) + 1;
   std::vector<float> histogram(static_cast<std::size_t>(bins), 0.0F);
   for (const Eigen::Vector3f& point : points) {
@@ -52,7 +55,8 @@ std::optional<float> lowest_layer(const std::vector<Eigen::Vector3f>& points, co
 }
 
 /// Least squares of height = height_m - down . p with the points within `band_m` of the plane.
-bool refit(const std::vector<Eigen::Vector3f>& points, float band_m, Ground& ground, std::size_t& inliers) {
+bool refit(const std::vector<Eigen::Vector3f>& points, float band_m, Ground& ground,
+           std::size_t& inliers) {
   // down' = down + a * e1 + b * e2; residual = height' - down' . p
   const Eigen::Vector3f e1 = ground.down.unitOrthogonal();
   const Eigen::Vector3f e2 = ground.down.cross(e1);
@@ -70,7 +74,8 @@ bool refit(const std::vector<Eigen::Vector3f>& points, float band_m, Ground& gro
     right -= weight * row * residual;
   }
   if (inliers < 20) return false;
-  // A degree of tilt is worth as much as a few points, so that a sliver of ground cannot tip the plane.
+  // A degree of tilt is worth as much as a few points, so that a sliver of ground cannot tip the
+  // plane.
   normal(0, 0) += 10.0;
   normal(1, 1) += 10.0;
   const Eigen::Vector3f step = normal.ldlt().solve(right).cast<float>();
@@ -100,7 +105,8 @@ std::optional<Ground> find_ground(const Cloud& cloud, const GroundParams& params
   for (const float band : {0.12F, 0.08F, params.inlier_distance_m, params.inlier_distance_m}) {
     if (!refit(points, band, ground, inliers)) return std::nullopt;
   }
-  if (ground.down.dot(gravity.down) < std::cos(params.max_tilt_rad)) return Ground{gravity.down, *layer};
+  if (ground.down.dot(gravity.down) < std::cos(params.max_tilt_rad))
+    return Ground{gravity.down, *layer};
   if (static_cast<float>(inliers) < min_count) return std::nullopt;
   return ground;
 }

@@ -14,8 +14,8 @@ struct Ground {
   float height_m = 0.0F;                   ///< of the sensor over the plane
 };
 
-/// The ground that `cloud` shows, near to what gravity tells; nothing where too little of it is in sight.
-/// A sensor height in the stamp narrows the search to 15 cm around it.
+/// The ground that `cloud` shows, near to what gravity tells; nothing where too little of it is in
+/// sight. A sensor height in the stamp narrows the search to 15 cm around it.
 std::optional<Ground> find_ground(const Cloud& cloud, const GroundParams& params);
 
 }  // namespace limbcast::segmenter

@@ -10,7 +10,8 @@
 namespace limbcast::segmenter {
 namespace {
 
-/// From the surface to the head's centre [m]: half of the head's length (ISO 7250: 19 cm), less its curvature.
+/// From the surface to the head's centre [m]: half of the head's length (ISO 7250: 19 cm), less its
+/// curvature.
 constexpr float kHeadDepth_m = 0.085F;
 constexpr float kPi = 3.14159265F;
 
@@ -47,7 +48,8 @@ std::array<Offset, kRingCount> make_ring() {
   std::array<Offset, kRingCount> ring{};
   for (int i = 0; i < kRingCount; ++i) {
     const float angle_rad = static_cast<float>(-10 + 20 * i) * kPi / 180.0F;
-    ring[static_cast<std::size_t>(i)] = {kRingRight_m * std::cos(angle_rad), kRingUp_m * std::sin(angle_rad)};
+    ring[static_cast<std::size_t>(i)] = {kRingRight_m * std::cos(angle_rad),
+                                         kRingUp_m * std::sin(angle_rad)};
   }
   return ring;
 }
@@ -55,7 +57,8 @@ std::array<Offset, kRingCount> make_ring() {
 /// Looks up depths at offsets in metres around one pixel.
 class Probe {
  public:
-  explicit Probe(const Lattice& lattice) : lattice_(lattice), right_(-lattice.up.y(), lattice.up.x()) {}
+  explicit Probe(const Lattice& lattice)
+      : lattice_(lattice), right_(-lattice.up.y(), lattice.up.x()) {}
 
   void move_to(int u, int v, float depth_m) {
     center_ = Eigen::Vector2f(static_cast<float>(u) + 0.5F, static_cast<float>(v) + 0.5F);
@@ -83,9 +86,12 @@ float ring_score(const Probe& probe, float z_m) {
   float sum = 0.0F;
   for (const Offset& offset : ring) {
     const float q = probe.depth_m(offset);
-    if (q < 0.0F) sum += kOutside;
-    else if (q == 0.0F || q > z_m + kRingStep_m) sum += 1.0F;
-    else if (q < z_m - kRingStep_m) sum += kNearer;
+    if (q < 0.0F)
+      sum += kOutside;
+    else if (q == 0.0F || q > z_m + kRingStep_m)
+      sum += 1.0F;
+    else if (q < z_m - kRingStep_m)
+      sum += kNearer;
   }
   return sum;
 }
@@ -94,9 +100,12 @@ float torso_score(const Probe& probe, float z_m) {
   float sum = 0.0F;
   for (const float down_m : kTorsoDown_m) {
     for (int i = 0; i < kTorsoColumns; ++i) {
-      const float q = probe.depth_m({static_cast<float>(i - kTorsoColumns / 2) * kTorsoSpacing_m, -down_m});
-      if (q < 0.0F) sum += kOutside;
-      else if (q > 0.0F && std::abs(q - z_m) < kTorsoStep_m) sum += 1.0F;
+      const float q =
+          probe.depth_m({static_cast<float>(i - kTorsoColumns / 2) * kTorsoSpacing_m, -down_m});
+      if (q < 0.0F)
+        sum += kOutside;
+      else if (q > 0.0F && std::abs(q - z_m) < kTorsoStep_m)
+        sum += 1.0F;
     }
   }
   return sum / static_cast<float>(kTorsoColumns * kTorsoDown_m.size());
@@ -112,7 +121,8 @@ float template_score(const Probe& probe, float z_m) {
   if (inside < kMinInside) return 0.0F;
   const float ring = ring_score(probe, z_m);
   if (ring < kMinRing) return 0.0F;
-  return static_cast<float>(inside) / static_cast<float>(kInside.size()) + ring / static_cast<float>(kRingCount) +
+  return static_cast<float>(inside) / static_cast<float>(kInside.size()) +
+         ring / static_cast<float>(kRingCount) +
          kTorsoWeight * std::min(torso_score(probe, z_m), kTorsoEnough);
 }
 
@@ -125,7 +135,9 @@ cv::Mat1f score_image(const Lattice& lattice, const HeadShapeParams& params) {
       const float z_m = lattice.depth_m[i];
       if (z_m < params.min_depth_m || z_m > params.max_depth_m) continue;
       const float height_m = lattice.level_m[i].z();
-      if (lattice.frame.ground_known && (height_m < params.min_height_m || height_m > params.max_height_m)) continue;
+      if (lattice.frame.ground_known &&
+          (height_m < params.min_height_m || height_m > params.max_height_m))
+        continue;
       probe.move_to(u, v, z_m);
       scores(v, u) = template_score(probe, z_m);
     }
@@ -136,7 +148,8 @@ cv::Mat1f score_image(const Lattice& lattice, const HeadShapeParams& params) {
 }  // namespace
 
 Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surface_m) {
-  const Eigen::Vector3f ray = surface_m - Eigen::Vector3f(0.0F, 0.0F, lattice.frame.sensor_height_m);
+  const Eigen::Vector3f ray =
+      surface_m - Eigen::Vector3f(0.0F, 0.0F, lattice.frame.sensor_height_m);
   return surface_m + kHeadDepth_m * ray.normalized();
 }
 
@@ -147,7 +160,8 @@ std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapePar
 
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < lattice.size(); ++i) {
-    if (scores(static_cast<int>(i)) > 0.0F && smooth(static_cast<int>(i)) > params.min_score) order.push_back(i);
+    if (scores(static_cast<int>(i)) > 0.0F && smooth(static_cast<int>(i)) > params.min_score)
+      order.push_back(i);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return smooth(static_cast<int>(a)) > smooth(static_cast<int>(b));
@@ -160,8 +174,8 @@ std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapePar
     });
     if (taken) continue;
     const auto width = static_cast<std::size_t>(lattice.width);
-    heads.push_back({static_cast<int>(i % width), static_cast<int>(i / width), point, head_center(lattice, point),
-                     smooth(static_cast<int>(i))});
+    heads.push_back({static_cast<int>(i % width), static_cast<int>(i / width), point,
+                     head_center(lattice, point), smooth(static_cast<int>(i))});
     if (static_cast<int>(heads.size()) >= params.max_candidates) break;
   }
   return heads;

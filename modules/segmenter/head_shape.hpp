@@ -16,8 +16,9 @@ struct HeadCandidate {
   float score = 0.0F;         ///< template's, 0 to 2.48
 };
 
-/// Heads by their shape: something as large as a head, nothing of its depth beside and over it, shoulders under
-/// it. Best first. The template's sizes are those of an adult's head; a child's of 5 years is 0.9 times as large.
+/// Heads by their shape: something as large as a head, nothing of its depth beside and over it,
+/// shoulders under it. Best first. The template's sizes are those of an adult's head; a child's of
+/// 5 years is 0.9 times as large.
 std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapeParams& params);
 
 /// Centre of the head whose surface is seen at `surface_m` (both level frame).

@@ -27,10 +27,14 @@ constexpr std::array<std::array<int, 2>, 12> kNeighbors = {{{1, 0},
 /// Dijkstra's algorithm from many starts with a queue of buckets.
 class Grower {
  public:
-  Grower(const Lattice& lattice, const std::vector<HeadCandidate>& heads, const JointGrowingParams& params,
-         const ReachParams& reach)
-      : lattice_(lattice), heads_(heads), params_(params), reach_(reach),
-        labels_(lattice.size(), kNobody), way_m_(lattice.size(), std::numeric_limits<float>::max()),
+  Grower(const Lattice& lattice, const std::vector<HeadCandidate>& heads,
+         const JointGrowingParams& params, const ReachParams& reach)
+      : lattice_(lattice),
+        heads_(heads),
+        params_(params),
+        reach_(reach),
+        labels_(lattice.size(), kNobody),
+        way_m_(lattice.size(), std::numeric_limits<float>::max()),
         buckets_(static_cast<std::size_t>(params.max_way_m / kBucket_m) + 2) {}
 
   std::vector<std::int16_t> run() {
@@ -51,12 +55,15 @@ class Grower {
   void start(std::int16_t k) {
     const HeadCandidate& head = heads_[static_cast<std::size_t>(k)];
     const float depth_m = lattice_.depth_m[lattice_.index(head.u, head.v)];
-    const int radius_px = std::max(1, static_cast<int>(params_.head_radius_m * lattice_.focal_px / depth_m));
+    const int radius_px =
+        std::max(1, static_cast<int>(params_.head_radius_m * lattice_.focal_px / depth_m));
     for (int v = head.v - radius_px; v <= head.v + radius_px; ++v) {
       for (int u = head.u - radius_px; u <= head.u + radius_px; ++u) {
         const auto i = find(u, v);
         if (i == kOutside || way_m_[i] == 0.0F) continue;
-        if ((lattice_.level_m[i] - head.center_m).squaredNorm() > params_.head_radius_m * params_.head_radius_m) continue;
+        if ((lattice_.level_m[i] - head.center_m).squaredNorm() >
+            params_.head_radius_m * params_.head_radius_m)
+          continue;
         way_m_[i] = 0.0F;
         labels_[i] = k;
         buckets_[0].push_back(i);
@@ -84,8 +91,10 @@ class Grower {
       const Eigen::Vector3f step = to - from;
       const float squared = step.squaredNorm();
       if (squared > max_step_m * max_step_m) continue;
-      const float way_m = way_m_[i] + std::max(1e-3F, std::sqrt(squared)) + params_.depth_step_cost * std::abs(step.y());
-      if (way_m >= way_m_[n] - 1e-4F || way_m > params_.max_way_m || !reachable(to, labels_[i])) continue;
+      const float way_m = way_m_[i] + std::max(1e-3F, std::sqrt(squared)) +
+                          params_.depth_step_cost * std::abs(step.y());
+      if (way_m >= way_m_[n] - 1e-4F || way_m > params_.max_way_m || !reachable(to, labels_[i]))
+        continue;
       way_m_[n] = way_m;
       labels_[n] = labels_[i];
       buckets_[std::max(bucket, bucket_of(way_m))].push_back(n);
@@ -94,12 +103,15 @@ class Grower {
 
   bool reachable(const Eigen::Vector3f& point, std::int16_t label) const {
     const Eigen::Vector3f& head = heads_[static_cast<std::size_t>(label)].center_m;
-    if (point.z() > head.z() + reach_.above_m || point.z() < head.z() - reach_.below_m) return false;
+    if (point.z() > head.z() + reach_.above_m || point.z() < head.z() - reach_.below_m)
+      return false;
     float radius_m = reach_.radius_m;
     if (lattice_.frame.ground_known) {
       if (point.z() < params_.ground_cut_m) return false;
-      if (point.z() < params_.shin_height * head.z()) radius_m = params_.shin_radius_m;
-      else if (point.z() < params_.knee_height * head.z()) radius_m = params_.knee_radius_m;
+      if (point.z() < params_.shin_height * head.z())
+        radius_m = params_.shin_radius_m;
+      else if (point.z() < params_.knee_height * head.z())
+        radius_m = params_.knee_radius_m;
     }
     return (point - head).head<2>().squaredNorm() <= radius_m * radius_m;
   }
@@ -116,8 +128,10 @@ class Grower {
 
 }  // namespace
 
-std::vector<std::int16_t> grow_together(const Lattice& lattice, const std::vector<HeadCandidate>& heads,
-                                        const JointGrowingParams& params, const ReachParams& reach) {
+std::vector<std::int16_t> grow_together(const Lattice& lattice,
+                                        const std::vector<HeadCandidate>& heads,
+                                        const JointGrowingParams& params,
+                                        const ReachParams& reach) {
   return Grower(lattice, heads, params, reach).run();
 }
 

@@ -1,5 +1,6 @@
 #include "modules/segmenter/lattice.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +31,8 @@ Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step) {
   const Eigen::Vector2f image_up = frame.level_from_sensor.row(2).head<2>().transpose();
   if (image_up.norm() > 0.2F) lattice.up = image_up.normalized();
 
-  const std::size_t size = static_cast<std::size_t>(lattice.width) * static_cast<std::size_t>(lattice.height);
+  const std::size_t size =
+      static_cast<std::size_t>(lattice.width) * static_cast<std::size_t>(lattice.height);
   lattice.depth_m.resize(size);
   lattice.level_m.resize(size);
   lattice.source.resize(size);
@@ -50,7 +52,8 @@ Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step) {
 }
 
 std::vector<std::int16_t> thicken(const Cloud& cloud, const Lattice& lattice, int step,
-                                  const std::vector<std::int16_t>& labels, const JointGrowingParams& params) {
+                                  const std::vector<std::int16_t>& labels,
+                                  const JointGrowingParams& params) {
   std::vector<std::int16_t> dense(cloud.points_m.size(), kNobody);
   const Eigen::Vector3f up = lattice.frame.level_from_sensor.row(2);
   std::size_t i = 0;
@@ -59,12 +62,17 @@ std::vector<std::int16_t> thicken(const Cloud& cloud, const Lattice& lattice, in
       const int left = u / step, top = v / step;
       const int right = std::min(left + (u % step > 0 ? 1 : 0), lattice.width - 1);
       const int bottom = std::min(top + (v % step > 0 ? 1 : 0), lattice.height - 1);
-      const std::array<std::size_t, 4> around = {lattice.index(left, top), lattice.index(right, top),
-                                                 lattice.index(left, bottom), lattice.index(right, bottom)};
-      if (std::none_of(around.begin(), around.end(), [&](std::size_t k) { return labels[k] != kNobody; })) continue;
+      const std::array<std::size_t, 4> around = {
+          lattice.index(left, top), lattice.index(right, top), lattice.index(left, bottom),
+          lattice.index(right, bottom)};
+      if (std::none_of(around.begin(), around.end(),
+                       [&](std::size_t k) { return labels[k] != kNobody; }))
+        continue;
       const Eigen::Vector3f& point = cloud.points_m[i];
       if (!(point.z() > 0.0F) || !std::isfinite(point.z())) continue;
-      if (lattice.frame.ground_known && up.dot(point) + lattice.frame.sensor_height_m < params.ground_cut_m) continue;
+      if (lattice.frame.ground_known &&
+          up.dot(point) + lattice.frame.sensor_height_m < params.ground_cut_m)
+        continue;
       float nearest_m = std::max(params.min_step_m, params.step_per_m2 * point.z() * point.z());
       for (const std::size_t k : around) {
         if (lattice.depth_m[k] <= 0.0F) continue;

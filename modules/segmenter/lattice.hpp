@@ -12,8 +12,8 @@
 
 namespace limbcast::segmenter {
 
-/// A frame that stands upright: x to the right, y away from the sensor, both level; z up. Origin: on the
-/// ground under the sensor, or at the sensor's own height where the ground is not known.
+/// A frame that stands upright: x to the right, y away from the sensor, both level; z up. Origin:
+/// on the ground under the sensor, or at the sensor's own height where the ground is not known.
 struct LevelFrame {
   Eigen::Matrix3f level_from_sensor = Eigen::Matrix3f::Identity();
   float sensor_height_m = 0.0F;
@@ -29,21 +29,23 @@ struct LevelFrame {
 
 LevelFrame make_level_frame(const Gravity& gravity, const std::optional<Ground>& ground);
 
-/// Points on a grid of rays, in a level frame: a camera's cloud, thinned to spare time, or an unorganised one
-/// rendered into a panorama. Distances across are seen as focal_px / depth pixels a metre.
+/// Points on a grid of rays, in a level frame: a camera's cloud, thinned to spare time, or an
+/// unorganised one rendered into a panorama. Distances across are seen as focal_px / depth pixels a
+/// metre.
 struct Lattice {
   int width = 0, height = 0;
   float focal_px = 0.0F;
   /// Direction of "up" in the image: (0, -1) for a camera without roll.
   Eigen::Vector2f up{0.0F, -1.0F};
-  bool wraps_around = false;            ///< column 0 is the neighbour of the last (panorama of 360 degrees)
-  std::vector<float> depth_m;           ///< distance along the optical axis (panorama: level), 0 = hole
+  bool wraps_around = false;   ///< column 0 is the neighbour of the last (panorama of 360 degrees)
+  std::vector<float> depth_m;  ///< distance along the optical axis (panorama: level), 0 = hole
   std::vector<Eigen::Vector3f> level_m;  ///< LevelFrame; (0, 0, 0) at holes
-  std::vector<std::uint32_t> source;    ///< index of the cloud's point, meaningless at holes
+  std::vector<std::uint32_t> source;     ///< index of the cloud's point, meaningless at holes
   LevelFrame frame;
 
   std::size_t index(int u, int v) const {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(u);
   }
   std::size_t size() const { return depth_m.size(); }
 };
@@ -54,9 +56,11 @@ inline constexpr std::int16_t kNobody = -1;
 /// Every `step`-th pixel of an organised cloud in both directions.
 Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step);
 
-/// Labels of the whole cloud from those of its thinned lattice: each pixel takes that of the nearest of the (up
-/// to four) lattice points around it, if a step of growing reaches it and it is not ground.
+/// Labels of the whole cloud from those of its thinned lattice: each pixel takes that of the
+/// nearest of the (up to four) lattice points around it, if a step of growing reaches it and it is
+/// not ground.
 std::vector<std::int16_t> thicken(const Cloud& cloud, const Lattice& lattice, int step,
-                                  const std::vector<std::int16_t>& labels, const JointGrowingParams& params);
+                                  const std::vector<std::int16_t>& labels,
+                                  const JointGrowingParams& params);
 
 }  // namespace limbcast::segmenter

@@ -30,8 +30,8 @@ struct GroundParams {
   /// Height the ground is searched under the sensor [m]: robots' sensors stand between these.
   float min_sensor_height_m = 0.25F;
   float max_sensor_height_m = 2.6F;
-  /// Largest angle between the ground's normal and gravity [rad]: error of an inertial unit (0.5 degrees)
-  /// and slope of indoor floors and yards. Larger takes ramps, and furniture, for ground.
+  /// Largest angle between the ground's normal and gravity [rad]: error of an inertial unit (0.5
+  /// degrees) and slope of indoor floors and yards. Larger takes ramps, and furniture, for ground.
   float max_tilt_rad = 0.05F;
   /// Points this far from the plane take part in its last fit [m]: three sigma of stereo at 3 m.
   float inlier_distance_m = 0.04F;
@@ -41,8 +41,8 @@ struct GroundParams {
 
 /// The reach of a human: cylinder about the gravity axis through the seed (paper, III-B.1).
 struct ReachParams {
-  /// Radius [m]: head axis to finger tips, arm stretched sideways: half the arm span of a 1.9 m person,
-  /// which equals half the stature (Vitruvius; ISO 7250 tables: 0.97 m).
+  /// Radius [m]: head axis to finger tips, arm stretched sideways: half the arm span of a 1.9 m
+  /// person, which equals half the stature (Vitruvius; ISO 7250 tables: 0.97 m).
   float radius_m = 1.0F;
   /// Above the seed [m]: a raised arm of a 1.9 m person reaches 0.65 m over the head's centre.
   float above_m = 0.75F;
@@ -55,7 +55,8 @@ struct PaperGrowingParams {
   /// d_max [m]: a step between adjacent points of a surface; 0.05 to 0.10 give the same clusters on
   /// stereo_dev/general, less breaks at 4 m (pixel spacing 9 mm, disparity step 30 mm).
   float max_distance_m = 0.06F;
-  /// i_max: points whose neighbours are looked up. A person at 1.5 m covers 130,000 pixels of a VGA camera.
+  /// i_max: points whose neighbours are looked up. A person at 1.5 m covers 130,000 pixels of a VGA
+  /// camera.
   int max_iterations = 200000;
 };
 
@@ -64,13 +65,15 @@ struct JointGrowingParams {
   /// Longest step between neighbours [m]: max(min_step_m, step_per_m2 * z^2), as depth noise grows.
   float min_step_m = 0.06F;
   float step_per_m2 = 0.012F;
-  /// Points lower than this over the ground are ground [m]: two sigma of stereo noise and the plane's error.
+  /// Points lower than this over the ground are ground [m]: two sigma of stereo noise and the
+  /// plane's error.
   float ground_cut_m = 0.04F;
   /// Longest way from the head along the surface [m]: crown to sole of a 2 m person, and a bend.
   float max_way_m = 2.4F;
   /// A step in depth costs this much more than one along the image: bodies that touch part there.
   float depth_step_cost = 0.5F;
-  /// Radius about the head's axis below these heights (share of the head's height): legs stay under the body.
+  /// Radius about the head's axis below these heights (share of the head's height): legs stay under
+  /// the body.
   float shin_height = 0.30F, shin_radius_m = 0.75F;
   float knee_height = 0.45F, knee_radius_m = 0.85F;
   /// Points this near to the head's centre start the growing [m]: outer radius of a head.

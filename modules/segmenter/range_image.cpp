@@ -19,7 +19,8 @@ Box bounding_box(const Cloud& cloud, const std::vector<std::int16_t>& labels, st
   for (int v = 0; v < cloud.height; ++v) {
     for (int u = 0; u < cloud.width; ++u, ++i) {
       if (labels[i] != label) continue;
-      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u + 1), std::max(box.bottom, v + 1)};
+      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u + 1),
+             std::max(box.bottom, v + 1)};
       nearest_m = std::min(nearest_m, cloud.points_m[i].z());
     }
   }
@@ -28,13 +29,15 @@ Box bounding_box(const Cloud& cloud, const std::vector<std::int16_t>& labels, st
 
 Box widen(const Box& box, const Cloud& cloud, int margin_px) {
   return {std::max(0, box.left - margin_px), std::max(0, box.top - margin_px),
-          std::min(cloud.width, box.right + margin_px), std::min(cloud.height, box.bottom + margin_px)};
+          std::min(cloud.width, box.right + margin_px),
+          std::min(cloud.height, box.bottom + margin_px)};
 }
 
 }  // namespace
 
-void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& labels, std::int16_t label,
-                      float margin_m, const SkinColor& skin, float min_log_ratio, Segment& segment) {
+void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& labels,
+                      std::int16_t label, float margin_m, const SkinColor& skin,
+                      float min_log_ratio, Segment& segment) {
   float nearest_m = 0.0F;
   const Box tight = bounding_box(cloud, labels, label, nearest_m);
   if (tight.empty()) return;
@@ -51,7 +54,8 @@ void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& label
   image.origin_v = box.top;
   image.full_width = cloud.width;
   image.full_height = cloud.height;
-  const auto size = static_cast<std::size_t>(image.camera.width) * static_cast<std::size_t>(image.camera.height);
+  const auto size =
+      static_cast<std::size_t>(image.camera.width) * static_cast<std::size_t>(image.camera.height);
   image.depth_m.reserve(size);
   image.labels.reserve(size);
   const bool colored = !cloud.colors.empty();
@@ -63,9 +67,12 @@ void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& label
       const float z_m = cloud.points_m[i].z();
       const bool hole = !(z_m > 0.0F) || !std::isfinite(z_m);
       const bool own = !hole && labels[i] == label;
-      const auto is_skin = static_cast<std::uint8_t>(colored && skin.log_ratio(cloud.colors[i]) > min_log_ratio);
+      const auto is_skin =
+          static_cast<std::uint8_t>(colored && skin.log_ratio(cloud.colors[i]) > min_log_ratio);
       image.depth_m.push_back(hole ? 0.0F : z_m);
-      image.labels.push_back(hole ? PixelLabel::kUnknown : own ? PixelLabel::kPerson : PixelLabel::kOther);
+      image.labels.push_back(hole  ? PixelLabel::kUnknown
+                             : own ? PixelLabel::kPerson
+                                   : PixelLabel::kOther);
       if (colored) image.is_skin.push_back(is_skin);
       if (!own) continue;
       segment.points_m.push_back(cloud.points_m[i]);

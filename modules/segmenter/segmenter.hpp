@@ -12,8 +12,8 @@ class Segmenter {
  public:
   explicit Segmenter(const Params& params = {});
 
-  /// One segment for each seed that was looked at: first the people, then the rejected, without points and
-  /// with the filter that ended them.
+  /// One segment for each seed that was looked at: first the people, then the rejected, without
+  /// points and with the filter that ended them.
   Segments segment(const Cloud& cloud) const;
 
  private:

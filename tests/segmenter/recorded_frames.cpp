@@ -44,14 +44,17 @@ cv::Mat1f sgbm_depth(const std::string& path, float focal_times_baseline) {
   const int block = 5;
   cv::copyMakeBorder(left, left, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
   cv::copyMakeBorder(right, right, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
-  const auto matcher = cv::StereoSGBM::create(0, disparities, block, 8 * 3 * block * block, 32 * 3 * block * block, 1,
-                                              63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
+  const auto matcher =
+      cv::StereoSGBM::create(0, disparities, block, 8 * 3 * block * block, 32 * 3 * block * block,
+                             1, 63, 10, 100, 2, cv::StereoSGBM::MODE_SGBM_3WAY);
   cv::Mat disparity;
   matcher->compute(left, right, disparity);
   disparity = disparity.colRange(disparities, disparity.cols);
   cv::Mat1f depth(disparity.size(), 0.0F);
   for (int i = 0; i < static_cast<int>(disparity.total()); ++i) {
-    const float d = static_cast<float>(disparity.at<std::int16_t>(i / disparity.cols, i % disparity.cols)) / 16.0F;
+    const float d =
+        static_cast<float>(disparity.at<std::int16_t>(i / disparity.cols, i % disparity.cols)) /
+        16.0F;
     if (d > 0.9F) depth(i / disparity.cols, i % disparity.cols) = focal_times_baseline / d;
   }
   return depth;
@@ -64,7 +67,8 @@ void fill_cloud(const cv::Mat1f& depth, const cv::Mat& color, Cloud& cloud) {
   for (int v = 0; v < depth.rows; ++v) {
     for (int u = 0; u < depth.cols; ++u) {
       const float z = depth(v, u) < kFarthest_m ? depth(v, u) : 0.0F;
-      cloud.points_m.push_back(cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), z));
+      cloud.points_m.push_back(
+          cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), z));
       const auto bgr = color.at<cv::Vec3b>(v, u);
       cloud.colors.push_back({bgr[0], bgr[1], bgr[2]});
     }
@@ -88,7 +92,8 @@ void load_laser(const std::string& path, Cloud& cloud) {
     if (line.rfind("POINTS ", 0) == 0) count = std::stoi(line.substr(7));
   }
   std::vector<float> values(static_cast<std::size_t>(count) * 4);
-  file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(float)));
+  file.read(reinterpret_cast<char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(float)));
   for (std::size_t i = 0; i < values.size(); i += 4) {
     const Eigen::Vector3f point(values[i], values[i + 1], values[i + 2]);
     if (point.allFinite()) cloud.points_m.push_back(point);
@@ -101,13 +106,16 @@ std::vector<TruePerson> read_persons(const nlohmann::json& truth) {
   std::vector<TruePerson> persons;
   for (const auto& entry : truth.at("persons")) {
     TruePerson person;
-    if (entry.contains("body") && entry.at("body").is_string()) person.body = entry.at("body").get<std::string>().substr(0, 2);
+    if (entry.contains("body") && entry.at("body").is_string())
+      person.body = entry.at("body").get<std::string>().substr(0, 2);
     person.mask_index = entry.value("mask_index", 0);
-    if (entry.contains("body_yaw_deg") && entry.at("body_yaw_deg").is_number()) person.yaw_deg = entry.at("body_yaw_deg");
+    if (entry.contains("body_yaw_deg") && entry.at("body_yaw_deg").is_number())
+      person.yaw_deg = entry.at("body_yaw_deg");
     for (const auto& [name, xyz] : entry.at("joints").items()) {
       if (xyz.is_array()) person.joints_m[name] = Eigen::Vector3f(xyz[0], xyz[1], xyz[2]);
     }
-    for (const auto& [name, visible] : entry.at("visible").items()) person.visible[name] = visible.get<bool>();
+    for (const auto& [name, visible] : entry.at("visible").items())
+      person.visible[name] = visible.get<bool>();
     persons.push_back(std::move(person));
   }
   return persons;
@@ -140,7 +148,8 @@ RecordedFrame load_frame(const std::string& path, DepthFrom depth_from) {
     return frame;
   }
   frame.cloud.camera = read_camera(truth);
-  frame.mask = fs::exists(path + "_mask.png") ? cv::imread(path + "_mask.png", cv::IMREAD_UNCHANGED) : cv::Mat();
+  frame.mask = fs::exists(path + "_mask.png") ? cv::imread(path + "_mask.png", cv::IMREAD_UNCHANGED)
+                                              : cv::Mat();
   const bool stereo = fs::exists(path + "_left.jpg");
   frame.color = cv::imread(path + (stereo ? "_left.jpg" : "_color.jpg"));
   cv::Mat1f depth;

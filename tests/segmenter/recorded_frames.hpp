@@ -18,7 +18,9 @@ struct TruePerson {
   std::map<std::string, bool> visible;
   float yaw_deg = 0.0F;
 
-  bool head_visible() const { return joints_m.count("head") > 0 && visible.count("head") > 0 && visible.at("head"); }
+  bool head_visible() const {
+    return joints_m.count("head") > 0 && visible.count("head") > 0 && visible.at("head");
+  }
   /// D4 and D5: nothing is tuned on these.
   bool for_checking() const { return body == "D4" || body == "D5"; }
 };

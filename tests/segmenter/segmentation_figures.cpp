@@ -1,5 +1,6 @@
-// Prints how well people are found and cut out, set by set: the tables of modules/segmenter/README.md.
-// limbcast-segmentation-figures [--true-depth] [--paper] [--verbose] [--draw FOLDER] [SET...]
+// Prints how well people are found and cut out, set by set: the tables of
+// modules/segmenter/README.md. limbcast-segmentation-figures [--true-depth] [--paper] [--verbose]
+// [--draw FOLDER] [SET...]
 
 #include <chrono>
 #include <cstdio>
@@ -46,8 +47,10 @@ cv::Mat1b segment_mask(const Segment& segment, cv::Size size) {
   const RangeImage& image = *segment.range_image;
   for (int v = 0; v < image.camera.height; ++v) {
     for (int u = 0; u < image.camera.width; ++u) {
-      const auto i = static_cast<std::size_t>(v) * static_cast<std::size_t>(image.camera.width) + static_cast<std::size_t>(u);
-      if (image.labels[i] == PixelLabel::kPerson) mask(v + image.origin_v, u + image.origin_u) = 255;
+      const auto i = static_cast<std::size_t>(v) * static_cast<std::size_t>(image.camera.width) +
+                     static_cast<std::size_t>(u);
+      if (image.labels[i] == PixelLabel::kPerson)
+        mask(v + image.origin_v, u + image.origin_u) = 255;
     }
   }
   return mask;
@@ -55,26 +58,29 @@ cv::Mat1b segment_mask(const Segment& segment, cv::Size size) {
 
 cv::Mat1b measured_pixels(const Cloud& cloud) {
   cv::Mat1b mask(cloud.height, cloud.width, static_cast<std::uint8_t>(0));
-  for (std::size_t i = 0; i < cloud.points_m.size(); ++i) mask(static_cast<int>(i)) = cloud.is_hole(i) ? 0 : 255;
+  for (std::size_t i = 0; i < cloud.points_m.size(); ++i)
+    mask(static_cast<int>(i)) = cloud.is_hole(i) ? 0 : 255;
   return mask;
 }
 
-void count_ends(const TruePerson& person, const char* end, const RecordedFrame& frame, const cv::Mat1b& mask, int& all,
-                int& kept) {
+void count_ends(const TruePerson& person, const char* end, const RecordedFrame& frame,
+                const cv::Mat1b& mask, int& all, int& kept) {
   for (const char* side : {"_left", "_right"}) {
     const auto joint = person.joints_m.find(std::string(end) + side);
     if (joint == person.joints_m.end()) continue;
     const auto visible = person.visible.find(joint->first);
     if (visible == person.visible.end() || !visible->second) continue;
     const Eigen::Vector2f px = frame.cloud.camera->project(joint->second);
-    const cv::Rect around = cv::Rect(static_cast<int>(px.x()) - 6, static_cast<int>(px.y()) - 6, 13, 13) &
-                            cv::Rect(0, 0, mask.cols, mask.rows);
+    const cv::Rect around =
+        cv::Rect(static_cast<int>(px.x()) - 6, static_cast<int>(px.y()) - 6, 13, 13) &
+        cv::Rect(0, 0, mask.cols, mask.rows);
     ++all;
     kept += !around.empty() && cv::countNonZero(mask(around)) > 0 ? 1 : 0;
   }
 }
 
-void measure_pixels(const RecordedFrame& frame, const TruePerson& person, const Segment& segment, Sums& sums) {
+void measure_pixels(const RecordedFrame& frame, const TruePerson& person, const Segment& segment,
+                    Sums& sums) {
   const cv::Mat1b mask = segment_mask(segment, frame.mask.size());
   const cv::Mat1b truth = frame.mask == person.mask_index;
   if (cv::countNonZero(truth) < 400) return;
@@ -85,13 +91,15 @@ void measure_pixels(const RecordedFrame& frame, const TruePerson& person, const 
   sums.strict += cv::countNonZero(mask & truth) / points;
   sums.banded += cv::countNonZero(mask & wide) / points;
   const cv::Mat1b valid = truth & measured_pixels(frame.cloud);
-  sums.recall += cv::countNonZero(mask & truth) / static_cast<double>(std::max(1, cv::countNonZero(valid)));
+  sums.recall +=
+      cv::countNonZero(mask & truth) / static_cast<double>(std::max(1, cv::countNonZero(valid)));
   count_ends(person, "hand", frame, mask, sums.hands, sums.hands_kept);
   count_ends(person, "ankle", frame, mask, sums.ankles, sums.ankles_kept);
 }
 
 void draw(const RecordedFrame& frame, const Segments& segments, const std::string& file) {
-  static const std::vector<cv::Scalar> colors = {{0, 255, 0}, {255, 0, 0}, {0, 0, 255}, {255, 255, 0}, {0, 255, 255}, {255, 0, 255}};
+  static const std::vector<cv::Scalar> colors = {{0, 255, 0},   {255, 0, 0},   {0, 0, 255},
+                                                 {255, 255, 0}, {0, 255, 255}, {255, 0, 255}};
   if (frame.color.empty()) return;
   cv::Mat picture = frame.color.clone();
   for (const Segment& segment : segments.segments) {
@@ -99,7 +107,8 @@ void draw(const RecordedFrame& frame, const Segments& segments, const std::strin
     const cv::Point at(static_cast<int>(px.x()), static_cast<int>(px.y()));
     if (!segment.valid()) {
       cv::circle(picture, at, 4, {160, 160, 160}, 1);
-      cv::putText(picture, std::to_string(static_cast<int>(segment.rejected_by)), at, 0, 0.4, {200, 200, 200});
+      cv::putText(picture, std::to_string(static_cast<int>(segment.rejected_by)), at, 0, 0.4,
+                  {200, 200, 200});
       continue;
     }
     const cv::Scalar& color = colors[static_cast<std::size_t>(segment.id) % colors.size()];
@@ -108,12 +117,14 @@ void draw(const RecordedFrame& frame, const Segments& segments, const std::strin
     cv::addWeighted(picture, 0.5, tint, 0.5, 0, mixed);
     mixed.copyTo(picture, mask);
     cv::circle(picture, at, 6, color, 2);
-    cv::putText(picture, cv::format("%.2f", static_cast<double>(segment.seed_score)), at, 0, 0.5, color);
+    cv::putText(picture, cv::format("%.2f", static_cast<double>(segment.seed_score)), at, 0, 0.5,
+                color);
   }
   cv::imwrite(file, picture);
 }
 
-/// Index of the person whose head the segment started from, -1 = none; `distance_m` to the nearest head.
+/// Index of the person whose head the segment started from, -1 = none; `distance_m` to the nearest
+/// head.
 int match(const RecordedFrame& frame, const Segment& segment, float& distance_m) {
   const Eigen::Vector3f center_m = segment.seed_m + 0.085F * segment.seed_m.normalized();
   int best = -1;
@@ -139,11 +150,14 @@ void add_frame(const RecordedFrame& frame, const Segments& segments, bool verbos
     if (!segment.valid()) continue;
     float distance_m = 0.0F;
     const int person = match(frame, segment, distance_m);
-    if (person >= 0 && distance_m < kSameHead_m && segment_of[static_cast<std::size_t>(person)] < 0) {
+    if (person >= 0 && distance_m < kSameHead_m &&
+        segment_of[static_cast<std::size_t>(person)] < 0) {
       segment_of[static_cast<std::size_t>(person)] = static_cast<int>(k);
     } else {
       ++(distance_m < kSamePerson_m ? sums.twice : sums.wrong);
-      if (verbose) std::printf("  %s: false at (%.2f %.2f %.2f), %.2f m from a head\n", frame.name.c_str(), segment.seed_m.x(), segment.seed_m.y(), segment.seed_m.z(), distance_m);
+      if (verbose)
+        std::printf("  %s: false at (%.2f %.2f %.2f), %.2f m from a head\n", frame.name.c_str(),
+                    segment.seed_m.x(), segment.seed_m.y(), segment.seed_m.z(), distance_m);
     }
   }
   for (std::size_t p = 0; p < frame.persons.size(); ++p) {
@@ -157,24 +171,33 @@ void add_frame(const RecordedFrame& frame, const Segments& segments, bool verbos
         const Eigen::Vector3f head = person.joints_m.at("head");
         for (const Segment& segment : segments.segments) {
           float d = 0.0F;
-          if (!segment.valid() && match(frame, segment, d) == static_cast<int>(p) && d < kSameHead_m) {
-            why = cv::format("filter %d: %.2f against %.2f", static_cast<int>(segment.rejected_by), static_cast<double>(segment.filter_figure), static_cast<double>(segment.filter_limit));
+          if (!segment.valid() && match(frame, segment, d) == static_cast<int>(p) &&
+              d < kSameHead_m) {
+            why = cv::format("filter %d: %.2f against %.2f", static_cast<int>(segment.rejected_by),
+                             static_cast<double>(segment.filter_figure),
+                             static_cast<double>(segment.filter_limit));
           }
         }
-        std::printf("  %s: %s missed at (%.2f %.2f %.2f): %s\n", frame.name.c_str(), person.body.c_str(), head.x(), head.y(), head.z(), why.c_str());
+        std::printf("  %s: %s missed at (%.2f %.2f %.2f): %s\n", frame.name.c_str(),
+                    person.body.c_str(), head.x(), head.y(), head.z(), why.c_str());
       }
       continue;
     }
     ++half.found;
-    if (!frame.mask.empty()) measure_pixels(frame, person, segments.segments[static_cast<std::size_t>(segment_of[p])], half);
+    if (!frame.mask.empty())
+      measure_pixels(frame, person, segments.segments[static_cast<std::size_t>(segment_of[p])],
+                     half);
   }
 }
 
 void print(const std::string& set, const char* half, const Sums& s) {
   if (s.people == 0) return;
   const double n = std::max(1, s.measured);
-  std::printf("%-22s %-8s found %3d/%3d (%5.1f %%)  precision %.3f (3 px %.3f)  recall %.3f  hands %d/%d  ankles %d/%d\n", set.c_str(), half,
-              s.found, s.people, 100.0 * s.found / s.people, s.strict / n, s.banded / n, s.recall / n, s.hands_kept, s.hands, s.ankles_kept, s.ankles);
+  std::printf(
+      "%-22s %-8s found %3d/%3d (%5.1f %%)  precision %.3f (3 px %.3f)  recall %.3f  hands %d/%d  "
+      "ankles %d/%d\n",
+      set.c_str(), half, s.found, s.people, 100.0 * s.found / s.people, s.strict / n, s.banded / n,
+      s.recall / n, s.hands_kept, s.hands, s.ankles_kept, s.ankles);
 }
 
 void run_set(const std::string& set, const Arguments& arguments) {
@@ -193,8 +216,9 @@ void run_set(const std::string& set, const Arguments& arguments) {
   print(set, "tuning", sums.tuning);
   print(set, "checking", sums.checking);
   const double n = std::max(1, sums.frames);
-  std::printf("%-22s %d frames: false %d, twice %d, candidates %.1f a frame, %.2f ms a frame\n", set.c_str(), sums.frames, sums.wrong, sums.twice,
-              sums.candidates / n, sums.time_ms / n);
+  std::printf("%-22s %d frames: false %d, twice %d, candidates %.1f a frame, %.2f ms a frame\n",
+              set.c_str(), sums.frames, sums.wrong, sums.twice, sums.candidates / n,
+              sums.time_ms / n);
   std::fflush(stdout);
 }
 
@@ -202,15 +226,21 @@ Arguments read_arguments(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--true-depth") arguments.depth_from = DepthFrom::kTruth;
-    else if (word == "--paper") arguments.params.growing = Growing::kPaper;
-    else if (word == "--verbose") arguments.verbose = true;
-    else if (word == "--draw" && i + 1 < argc) arguments.draw = argv[++i];
-    else arguments.sets.push_back(word);
+    if (word == "--true-depth")
+      arguments.depth_from = DepthFrom::kTruth;
+    else if (word == "--paper")
+      arguments.params.growing = Growing::kPaper;
+    else if (word == "--verbose")
+      arguments.verbose = true;
+    else if (word == "--draw" && i + 1 < argc)
+      arguments.draw = argv[++i];
+    else
+      arguments.sets.push_back(word);
   }
   if (arguments.sets.empty()) {
-    arguments.sets = {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/multi", "stereo_dev/nohuman", "stereo_dev/hd",
-                      "stereo_dev/sequence", "rgbd_pointing", "rgbd_five_people", "laser_dev"};
+    arguments.sets = {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/multi",
+                      "stereo_dev/nohuman", "stereo_dev/hd",       "stereo_dev/sequence",
+                      "rgbd_pointing",      "rgbd_five_people",    "laser_dev"};
   }
   return arguments;
 }
