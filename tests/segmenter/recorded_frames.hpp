@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
+#include "modules/reconstructor/reconstructor.hpp"
 
 namespace limbcast::segmenter {
 
@@ -26,7 +28,7 @@ struct TruePerson {
 };
 
 /// One frame of the data folder.
-struct RecordedFrame {
+struct LoadedFrame {
   std::string name;
   Cloud cloud;
   cv::Mat color;  ///< empty for a laser
@@ -35,12 +37,26 @@ struct RecordedFrame {
   bool labelled = false;
 };
 
-/// Paths of a set's frames without their suffixes, sorted.
-std::vector<std::string> frame_paths(const std::string& set);
-
 /// Depth of a stereo pair.
-enum class DepthFrom { kSgbm, kTruth };
+enum class DepthFrom { kReconstructor, kTruth };
 
-RecordedFrame load_frame(const std::string& path, DepthFrom depth_from);
+/// Reads the frames of one set: a folder of pairs, of depth images or of laser scans.
+class FrameReader {
+ public:
+  FrameReader(const std::string& folder, DepthFrom depth_from);
+
+  /// Paths of the frames without their suffixes, sorted.
+  const std::vector<std::string>& paths() const { return paths_; }
+  LoadedFrame read(const std::string& path) const;
+
+ private:
+  Stamp stamp_of(const std::string& name) const;
+
+  DepthFrom depth_from_;
+  std::vector<std::string> paths_;
+  std::map<std::string, Gravity> gravity_;
+  std::optional<reconstructor::StereoReconstructor> stereo_;
+  std::optional<reconstructor::DepthReconstructor> depth_;
+};
 
 }  // namespace limbcast::segmenter

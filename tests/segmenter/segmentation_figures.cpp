@@ -20,7 +20,7 @@ using namespace limbcast;
 using namespace limbcast::segmenter;
 
 struct Arguments {
-  DepthFrom depth_from = DepthFrom::kSgbm;
+  DepthFrom depth_from = DepthFrom::kReconstructor;
   bool verbose = false;
   std::string draw;
   Params params;
@@ -63,7 +63,7 @@ cv::Mat1b measured_pixels(const Cloud& cloud) {
   return mask;
 }
 
-void count_ends(const TruePerson& person, const char* end, const RecordedFrame& frame,
+void count_ends(const TruePerson& person, const char* end, const LoadedFrame& frame,
                 const cv::Mat1b& mask, int& all, int& kept) {
   for (const char* side : {"_left", "_right"}) {
     const auto joint = person.joints_m.find(std::string(end) + side);
@@ -79,7 +79,7 @@ void count_ends(const TruePerson& person, const char* end, const RecordedFrame& 
   }
 }
 
-void measure_pixels(const RecordedFrame& frame, const TruePerson& person, const Segment& segment,
+void measure_pixels(const LoadedFrame& frame, const TruePerson& person, const Segment& segment,
                     Sums& sums) {
   const cv::Mat1b mask = segment_mask(segment, frame.mask.size());
   const cv::Mat1b truth = frame.mask == person.mask_index;
@@ -97,7 +97,7 @@ void measure_pixels(const RecordedFrame& frame, const TruePerson& person, const 
   count_ends(person, "ankle", frame, mask, sums.ankles, sums.ankles_kept);
 }
 
-void draw(const RecordedFrame& frame, const Segments& segments, const std::string& file) {
+void draw(const LoadedFrame& frame, const Segments& segments, const std::string& file) {
   static const std::vector<cv::Scalar> colors = {{0, 255, 0},   {255, 0, 0},   {0, 0, 255},
                                                  {255, 255, 0}, {0, 255, 255}, {255, 0, 255}};
   if (frame.color.empty()) return;
@@ -125,7 +125,7 @@ void draw(const RecordedFrame& frame, const Segments& segments, const std::strin
 
 /// Index of the person whose head the segment started from, -1 = none; `distance_m` to the nearest
 /// head.
-int match(const RecordedFrame& frame, const Segment& segment, float& distance_m) {
+int match(const LoadedFrame& frame, const Segment& segment, float& distance_m) {
   const Eigen::Vector3f center_m = segment.seed_m + 0.085F * segment.seed_m.normalized();
   int best = -1;
   distance_m = 1e9F;
@@ -141,7 +141,7 @@ int match(const RecordedFrame& frame, const Segment& segment, float& distance_m)
   return best;
 }
 
-void add_frame(const RecordedFrame& frame, const Segments& segments, bool verbose, SetSums& sums) {
+void add_frame(const LoadedFrame& frame, const Segments& segments, bool verbose, SetSums& sums) {
   constexpr float kSameHead_m = 0.20F, kSamePerson_m = 0.50F;
   std::vector<int> segment_of(frame.persons.size(), -1);
   for (std::size_t k = 0; k < segments.segments.size(); ++k) {
@@ -202,9 +202,10 @@ void print(const std::string& set, const char* half, const Sums& s) {
 
 void run_set(const std::string& set, const Arguments& arguments) {
   const Segmenter segmenter(arguments.params);
+  const FrameReader reader(std::string(LIMBCAST_DATA_DIR) + "/" + set, arguments.depth_from);
   SetSums sums;
-  for (const std::string& path : frame_paths(set)) {
-    const RecordedFrame frame = load_frame(path, arguments.depth_from);
+  for (const std::string& path : reader.paths()) {
+    const LoadedFrame frame = reader.read(path);
     const auto start = std::chrono::steady_clock::now();
     const Segments segments = segmenter.segment(frame.cloud);
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;

@@ -1,0 +1,57 @@
+#include "modules/segmenter/options.hpp"
+
+#include <map>
+
+namespace limbcast::segmenter {
+
+void declare(config::Section& section, SegmenterOptions& options) {
+  section.add_choice(
+      "seeds", options.seeds, {"auto", "skin", "shape", "both"},
+      "where growing starts: skin-coloured parts (the paper), heads by their shape, both, or "
+      "what the cloud offers");
+  section.add_choice("growing", options.growing, {"refined", "paper"},
+                     "all heads together along the surface, or Algorithm 1 of the paper");
+  section.add_choice("search", options.search, {"auto", "kdtree", "lattice"},
+                     "how Algorithm 1 looks up neighbours");
+  Params& params = options.params;
+  section.add("max-distance-m", params.paper.max_distance_m, "m", "d_max of Algorithm 1",
+              {0.005F, 1.0F});
+  section.add("max-iterations", params.paper.max_iterations, "points", "i_max of Algorithm 1",
+              {1, 100000000});
+  section.add("reach-radius-m", params.reach.radius_m, "m",
+              "radius of the cylinder a human can reach", {0.3F, 3.0F});
+  section.add("ground-cut-m", params.joint.ground_cut_m, "m", "points lower than this are ground",
+              {-1.0F, 0.5F});
+  section.add("min-area-m2", params.filters.min_area_m2, "m^2",
+              "visible surface of the smallest person", {0.0F, 10.0F});
+  section.add("max-area-m2", params.filters.max_area_m2, "m^2",
+              "visible surface of the largest person", {0.0F, 100.0F});
+  section.add("min-seed-over-centroid-m", params.filters.min_seed_over_centroid_m, "m",
+              "how far a head stands over its cluster's centroid", {-2.0F, 2.0F});
+  section.add("min-density", params.filters.min_density, "",
+              "share of a cluster's outline that its points must fill", {0.0F, 1.0F});
+  section.add("min-skin-log-ratio", params.skin.min_log_ratio, "",
+              "log likelihood ratio above which a colour is skin", {-20.0F, 20.0F});
+  section.add("range-image-margin-m", params.range_image_margin_m, "m",
+              "space kept around a person in the range image", {0.0F, 2.0F});
+}
+
+Params to_params(const SegmenterOptions& options) {
+  static const std::map<std::string, SeedSource> seeds = {{"auto", SeedSource::kAuto},
+                                                          {"skin", SeedSource::kSkin},
+                                                          {"shape", SeedSource::kShape},
+                                                          {"both", SeedSource::kBoth}};
+  static const std::map<std::string, Growing> growing = {{"refined", Growing::kRefined},
+                                                         {"paper", Growing::kPaper}};
+  static const std::map<std::string, NeighborSearch> search = {
+      {"auto", NeighborSearch::kAuto},
+      {"kdtree", NeighborSearch::kKdTree},
+      {"lattice", NeighborSearch::kLattice}};
+  Params params = options.params;
+  params.seeds = seeds.at(options.seeds);
+  params.growing = growing.at(options.growing);
+  params.search = search.at(options.search);
+  return params;
+}
+
+}  // namespace limbcast::segmenter
