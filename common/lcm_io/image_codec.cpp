@@ -72,14 +72,13 @@ image_t to_raw_message(const cv::Mat& image) {
                     {packed.data, packed.data + packed.total() * packed.elemSize()});
 }
 
-image_t to_file_message(const std::string& file_bytes, int width, int height,
-                        std::int8_t encoding) {
+image_t to_message(const EncodedImage& image) {
   image_t message{};
-  message.width = width;
-  message.height = height;
-  message.encoding = encoding;
-  message.size = static_cast<std::int32_t>(file_bytes.size());
-  message.data.assign(file_bytes.begin(), file_bytes.end());
+  message.width = image.width;
+  message.height = image.height;
+  message.encoding = image.format == ImageFormat::kJpeg ? image_t::JPEG : image_t::PNG;
+  message.size = static_cast<std::int32_t>(image.bytes.size());
+  message.data = image.bytes;
   return message;
 }
 
