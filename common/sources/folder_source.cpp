@@ -1,0 +1,79 @@
+#include "common/sources/folder_source.hpp"
+
+#include <utility>
+
+#include "common/human_model/ground_truth_json.hpp"
+
+namespace limbcast {
+namespace {
+
+/// How long the recording lasts, with the time from its last frame to the first of the next round
+/// [us].
+std::int64_t round_duration_us(const std::vector<RecordedFrame>& frames, double rate_hz) {
+  const std::int64_t duration_us = frames.back().time.utime - frames.front().time.utime;
+  if (frames.size() < 2) return static_cast<std::int64_t>(1e6 / rate_hz);
+  return duration_us + duration_us / static_cast<std::int64_t>(frames.size() - 1);
+}
+
+}  // namespace
+
+FolderSource::FolderSource(std::string folder, PairFormat format, const FolderParams& params)
+    : folder_(std::move(folder)),
+      format_(std::move(format)),
+      loop_(params.loop),
+      recording_(find_recording(folder_, format_.names, params.recording)) {
+  if (loop_) {
+    round_duration_us_ = round_duration_us(recording_.frames, params.recording.rate_hz);
+  }
+}
+
+std::optional<FramePair> FolderSource::next() {
+  if (ended()) return std::nullopt;
+  FramePair frame = read(recording_.frames[index_]);
+  step();
+  return frame;
+}
+
+FramePair FolderSource::read(const RecordedFrame& recorded) const {
+  FramePair frame;
+  frame.first = read_encoded_image(recorded.first_path);
+  frame.second = read_encoded_image(recorded.second_path);
+  check_pair(format_, frame.first, frame.second, folder_ + "/" + recorded.time.name);
+  frame.first =
+      coded_for_sending(std::move(frame.first), format_.jpeg_quality, recorded.first_path);
+  frame.second =
+      coded_for_sending(std::move(frame.second), format_.jpeg_quality, recorded.second_path);
+
+  frame.stamp.utime = recorded.time.utime + loop_offset_us_;
+  frame.stamp.sequence = sequence_;
+  frame.stamp.sensor = format_.sensor;
+  frame.stamp.frame = format_.frame;
+  if (recorded.time.down) {
+    frame.stamp.gravity.down = *recorded.time.down;
+    frame.stamp.gravity.source = GravitySource::kRecording;
+  }
+  if (!recorded.truth_path.empty()) {
+    frame.truth = read_ground_truth(recorded.truth_path);
+    // The truth's own gravity is exact; in all else it belongs to the frame that it is for.
+    const Gravity exact = frame.truth->stamp.gravity;
+    frame.truth->stamp = frame.stamp;
+    if (exact.source == GravitySource::kRecording) frame.truth->stamp.gravity = exact;
+  }
+  return frame;
+}
+
+void FolderSource::step() {
+  ++sequence_;
+  ++index_;
+  if (loop_ && ended()) {
+    index_ = 0;
+    loop_offset_us_ += round_duration_us_;
+  }
+}
+
+std::string FolderSource::description() const {
+  return folder_ + ": " + std::to_string(recording_.frames.size()) + " frames, times from " +
+         (recording_.has_timestamps ? "timestamps.csv" : "the rate");
+}
+
+}  // namespace limbcast

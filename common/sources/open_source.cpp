@@ -1,0 +1,68 @@
+#include "common/sources/open_source.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "common/input_error.hpp"
+#include "common/sources/folder_source.hpp"
+#include "common/sources/live_source.hpp"
+#include "common/sources/video_source.hpp"
+
+namespace limbcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+LiveCaptureParams capture_params(const SourceOptions& options, const std::string& name) {
+  LiveCaptureParams params;
+  params.name = name;
+  params.reopen = options.reopen;
+  params.stall_timeout = std::chrono::milliseconds(std::llround(1000.0 * options.stall_timeout_s));
+  return params;
+}
+
+OpenReader opener(const std::string& source, const CameraSettings& settings) {
+  return [source, settings] { return open_camera(source, settings); };
+}
+
+std::unique_ptr<PairSource> open_cameras(const SourceOptions& options, const PairFormat& format) {
+  if (options.second_source.empty()) {
+    if (format.second_is_depth) {
+      throw InputError(options.source +
+                       ": is one camera; give the depth camera with --source-depth");
+    }
+    return std::make_unique<SideBySideSource>(opener(options.source, options.camera),
+                                              capture_params(options, options.source), format);
+  }
+  CameraSettings second_settings = options.camera;
+  second_settings.raw_depth = format.second_is_depth;
+  return std::make_unique<TwoCameraSource>(opener(options.source, options.camera),
+                                           capture_params(options, options.source),
+                                           opener(options.second_source, second_settings),
+                                           capture_params(options, options.second_source), format,
+                                           std::llround(1000.0 * options.pair_tolerance_ms));
+}
+
+}  // namespace
+
+std::unique_ptr<PairSource> open_source(const SourceOptions& options, const PairFormat& format) {
+  if (is_camera(options.source)) return open_cameras(options, format);
+  const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kDefaultRate_hz;
+  if (fs::is_directory(options.source)) {
+    return std::make_unique<FolderSource>(
+        options.source, format, FolderParams{{rate_hz, options.start_utime}, options.loop});
+  }
+  if (!fs::exists(options.source)) {
+    throw InputError(options.source +
+                     ": does not exist; give a folder of pictures, a video file, /dev/videoN, "
+                     "gst:PIPELINE or a stream's URL");
+  }
+  if (format.second_is_depth) {
+    throw InputError(options.source + ": is no folder; videos cannot hold 16-bit depth");
+  }
+  return std::make_unique<VideoSource>(
+      options.source, options.second_source, format,
+      VideoParams{options.rate_hz, options.start_utime, options.loop});
+}
+
+}  // namespace limbcast

@@ -1,0 +1,185 @@
+#include "common/sources/source_process.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+#include "common/config/log.hpp"
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/sources/pacer.hpp"
+
+namespace limbcast {
+namespace {
+
+/// How long the process may take to see a signal or that the status is due.
+constexpr std::chrono::milliseconds kTick{20};
+constexpr double kMicroseconds = 1e6;
+
+void log_info(const std::string& text) { config::log(config::LogLevel::kInfo, text); }
+
+/// Sends frames from one source to one outlet.
+class Sender {
+ public:
+  Sender(const SourceProcessOptions& options, const Mounting& calibration, SendFrame send)
+      : options_(options),
+        option_mounting_(mounting_of(options)),
+        calibration_mounting_(calibration),
+        send_(std::move(send)) {}
+
+  void send(Outlet& outlet, FramePair frame) {
+    apply_mounting(option_mounting_, calibration_mounting_, frame.stamp.gravity);
+    if (options_.restamp) {
+      frame.stamp.utime = lcm_io::utime_now();
+      if (frame.truth) frame.truth->stamp.utime = frame.stamp.utime;
+    }
+    send_(outlet, frame);
+    if (frame.truth) {
+      outlet.send(frame.stamp.utime, options_.truth_channel, lcm_io::to_message(*frame.truth));
+    }
+    ++num_sent_;
+  }
+  std::int64_t num_sent() const { return num_sent_; }
+
+ private:
+  const SourceProcessOptions& options_;
+  Mounting option_mounting_, calibration_mounting_;
+  SendFrame send_;
+  std::int64_t num_sent_ = 0;
+};
+
+void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
+  while (!lcm_io::stop_requested()) {
+    module.spin_once();
+    const auto now = Pacer::Clock::now();
+    if (now >= due) return;
+    std::this_thread::sleep_for(std::min<Pacer::Clock::duration>(kTick, due - now));
+  }
+}
+
+void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module) {
+  module.set_note(std::to_string(statistics.dropped) + " dropped, " +
+                  std::to_string(statistics.unpaired) + " unpaired, " +
+                  std::to_string(statistics.reopened) + " reopened");
+  if (!statistics.problem.empty()) module.report_problem(statistics.problem);
+}
+
+void publish(PairSource& source, Sender& sender, lcm_io::Module& module, double rate_hz) {
+  Outlet outlet(module);
+  Pacer pacer(rate_hz);
+  while (!source.ended() && !lcm_io::stop_requested()) {
+    std::optional<FramePair> frame = source.next();
+    if (source.live()) show_statistics(source.statistics(), module);
+    if (frame && !source.live()) {
+      wait_until(pacer.due(frame->stamp.utime, Pacer::Clock::now()), module);
+    }
+    if (frame && !lcm_io::stop_requested()) sender.send(outlet, std::move(*frame));
+    module.spin_once();
+  }
+}
+
+void write_log(PairSource& source, Sender& sender, const std::string& path) {
+  lcm_io::LogWriter log(path);
+  Outlet outlet(log);
+  while (!source.ended() && !lcm_io::stop_requested()) {
+    if (std::optional<FramePair> frame = source.next()) sender.send(outlet, std::move(*frame));
+  }
+  log.close();
+}
+
+}  // namespace
+
+void require_input(const SourceProcessOptions& options, const std::string& program) {
+  for (const auto& [key, value] : {std::pair("source", &options.source.source),
+                                   std::pair("calibration", &options.calibration)}) {
+    if (value->empty()) {
+      throw config::UsageError(std::string("--") + key + " is missing; see " + program + " --help");
+    }
+  }
+}
+
+void declare(config::Section& section, SourceProcessOptions& options,
+             const std::string& second_key) {
+  SourceOptions& source = options.source;
+  section.add("source", source.source,
+              "folder of pictures, video file, /dev/videoN, gst:PIPELINE or a stream's URL");
+  section.add(second_key, source.second_source,
+              "camera or video of the second image, where it has one of its own");
+  section.add("calibration", options.calibration,
+              "calibration file: OpenCV YAML, or ROS camera_info YAML");
+  section.add("sensor", options.sensor, "name of the sensor in all messages");
+  section.add("log", options.log, "write this LCM log instead of publishing");
+  section.add("rate", source.rate_hz, "frames/s",
+              "send at this rate; 0: as recorded, or 10 where no times are recorded",
+              {0.0, 1000.0});
+  section.add("loop", source.loop, "start a recording again at its end");
+  section.add("restamp", options.restamp, "utime is the moment of sending, not the recorded one");
+  section.add("start-time-s", options.start_time_s, "s",
+              "time of the first frame where no times are recorded, since the Unix epoch",
+              {0.0, 4e9});
+  section.add("jpeg-quality", source.jpeg_quality, "",
+              "of pictures that are no JPEG yet; 0: PNG, without loss", {0, 100});
+  section.add("down", options.down, "gravity in the camera's frame as X,Y,Z; overrides all others");
+  section.add("sensor-height-m", options.sensor_height_m, "m",
+              "height of the camera over the ground, 0 = not told", {0.0, 100.0});
+  section.add("camera-width", source.camera.width, "px",
+              "ask the camera for this size, 0 = its own", {0, 16384});
+  section.add("camera-height", source.camera.height, "px",
+              "ask the camera for this size, 0 = its own", {0, 16384});
+  section.add("camera-rate", source.camera.rate_hz, "frames/s",
+              "ask the camera for this rate, 0 = its own", {0.0, 1000.0});
+  section.add("exposure", source.camera.exposure, "driver's unit, UVC: 100 us",
+              "fixed exposure; nan = as the camera has it");
+  section.add("gain", source.camera.gain, "driver's unit",
+              "fixed gain; nan = as the camera has it");
+  section.add("pair-tolerance-ms", source.pair_tolerance_ms, "ms",
+              "largest difference in time of the two images of two cameras", {0.0, 1000.0});
+  section.add("stall-timeout-s", source.stall_timeout_s, "s",
+              "without a frame for this long a camera counts as stalled", {0.1, 3600.0});
+  section.add("reopen", source.reopen,
+              "open a camera that fails or ends again each second; false: end the program");
+  section.add("truth-channel", options.truth_channel, "channel of the truth beside a recording");
+}
+
+Mounting mounting_of(const SourceProcessOptions& options) {
+  Mounting mounting;
+  if (options.sensor_height_m > 0.0) mounting.sensor_height_m = options.sensor_height_m;
+  if (options.down.empty()) return mounting;
+  std::istringstream text(options.down);
+  Eigen::Vector3d down;
+  char comma_1 = 0;
+  char comma_2 = 0;
+  text >> down.x() >> comma_1 >> down.y() >> comma_2 >> down.z();
+  const bool readable = text && text.eof() && comma_1 == ',' && comma_2 == ',';
+  // Typed with two digits a unit vector still has about this length.
+  if (!readable || !(std::abs(down.norm() - 1.0) < 0.05)) {
+    throw config::UsageError("'down' is '" + options.down + "', must be a unit vector like 0,1,0");
+  }
+  mounting.down = down.normalized();
+  return mounting;
+}
+
+void run_source(const std::string& module_name, const SourceProcessOptions& options,
+                const config::CommonOptions& common, const PairFormat& format,
+                const Mounting& calibration, const SendFrame& send) {
+  if (!options.log.empty() && options.source.loop) {
+    throw config::UsageError("'log' and 'loop' together never end; leave one out");
+  }
+  SourceOptions source_options = options.source;
+  source_options.start_utime = std::llround(kMicroseconds * options.start_time_s);
+  Sender sender(options, calibration, send);
+  const std::unique_ptr<PairSource> source = open_source(source_options, format);
+  if (options.log.empty()) {
+    lcm_io::Module module(module_name, common);
+    log_info(source->description());
+    publish(*source, sender, module, options.source.rate_hz);
+  } else {
+    config::configure_log(module_name, common.log_level);
+    lcm_io::install_signal_handlers();
+    log_info(source->description());
+    write_log(*source, sender, options.log);
+  }
+  log_info(std::to_string(sender.num_sent()) + " frames sent");
+}
+
+}  // namespace limbcast

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/config/options.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
+#include "common/sources/open_source.hpp"
+
+namespace limbcast {
+
+/// Options that every process with a source of image pairs has.
+struct SourceProcessOptions {
+  SourceOptions source;
+  std::string calibration;
+  std::string sensor;
+  std::string log;  ///< write an LCM log instead of publishing; empty: publish
+  std::string down;
+  double sensor_height_m = 0.0;  ///< 0: not told
+  double start_time_s = 0.0;
+  bool restamp = false;
+  std::string truth_channel = "GROUND_TRUTH";
+};
+
+/// Declares them; `second_key` is the option for the second camera, e.g. "source-right".
+void declare(config::Section& section, SourceProcessOptions& options,
+             const std::string& second_key);
+
+/// Throws config::UsageError unless source and calibration are given.
+void require_input(const SourceProcessOptions& options, const std::string& program);
+
+/// Mounting as the options tell it. Throws config::UsageError for a `down` that is no unit vector.
+Mounting mounting_of(const SourceProcessOptions& options);
+
+/// Where messages go: onto LCM or into a log.
+class Outlet {
+ public:
+  explicit Outlet(lcm_io::Module& module) : module_(&module) {}
+  explicit Outlet(lcm_io::LogWriter& log) : log_(&log) {}
+
+  /// A message that belongs to the frame of `utime`.
+  template <class Message>
+  void send(std::int64_t utime, const std::string& channel, const Message& message) {
+    if (log_ != nullptr) {
+      log_->write(utime, channel, message);
+    } else {
+      module_->publish(channel, message);
+    }
+  }
+  /// The frame itself, which is counted.
+  template <class Message>
+  void send_frame(const std::string& channel, const Message& message) {
+    if (log_ != nullptr) {
+      log_->write(message.stamp.utime, channel, message);
+    } else {
+      module_->publish_frame(channel, message);
+    }
+  }
+  /// The clock of what is sent once a second: the log's, or this host's [us].
+  std::int64_t now(std::int64_t frame_utime) const {
+    return log_ != nullptr ? frame_utime : lcm_io::utime_now();
+  }
+
+ private:
+  lcm_io::Module* module_ = nullptr;
+  lcm_io::LogWriter* log_ = nullptr;
+};
+
+/// Sends one frame with what belongs to it.
+using SendFrame = std::function<void(Outlet&, const FramePair&)>;
+
+/// Sends the frames of the source until it ends or the program is told to: a recording at its rate,
+/// cameras as they come, a log as fast as it can. `calibration` is the mounting of the calibration
+/// file.
+void run_source(const std::string& module_name, const SourceProcessOptions& options,
+                const config::CommonOptions& common, const PairFormat& format,
+                const Mounting& calibration, const SendFrame& send);
+
+}  // namespace limbcast

@@ -1,0 +1,66 @@
+#include <limbcast/depth_images_t.hpp>
+
+#include "common/camera/calibration_io.hpp"
+#include "common/lcm_io/calibration_codec.hpp"
+#include "common/lcm_io/image_codec.hpp"
+#include "common/lcm_io/stamp_codec.hpp"
+#include "common/sources/source_process.hpp"
+
+namespace limbcast::depth_camera {
+namespace {
+
+struct Options {
+  SourceProcessOptions process;
+  std::string images_channel = "DEPTH_IMAGES";
+};
+
+void declare(config::Section& section, Options& options) {
+  options.process.sensor = "depth";
+  limbcast::declare(section, options.process, "source-depth");
+  section.add("images-channel", options.images_channel, "channel of the frames");
+}
+
+depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibration) {
+  depth_images_t message{};
+  message.stamp = lcm_io::to_message(frame.stamp);
+  message.lens = lcm_io::to_message(calibration.color);
+  message.depth_scale_m = calibration.depth_scale_m;
+  message.mounting = lcm_io::to_message(calibration.mounting);
+  message.color = lcm_io::to_message(frame.first);
+  message.depth = lcm_io::to_message(frame.second);
+  return message;
+}
+
+void run(const Options& options, const config::CommonOptions& common) {
+  const DepthCalibration calibration = read_depth_calibration(options.process.calibration);
+  const std::string& sensor = options.process.sensor;
+  const PairFormat format{{"color", "depth"},
+                          true,
+                          calibration.color.camera.width,
+                          calibration.color.camera.height,
+                          sensor,
+                          sensor + "/color_optical",
+                          options.process.source.jpeg_quality};
+  const auto send = [&](Outlet& outlet, const FramePair& frame) {
+    outlet.send_frame(options.images_channel, to_message(frame, calibration));
+  };
+  run_source("depth_camera", options.process, common, format, calibration.mounting, send);
+}
+
+}  // namespace
+}  // namespace limbcast::depth_camera
+
+int main(int argc, char** argv) {
+  using namespace limbcast;
+  return config::run_program("limbcast-depth-camera", [&] {
+    depth_camera::Options options;
+    config::Section section("depth_camera");
+    depth_camera::declare(section, options);
+    config::Parser parser("limbcast-depth-camera",
+                          "publishes colour and depth of a depth camera, live or recorded");
+    parser.add(section);
+    if (!parser.parse(argc, argv)) return;
+    require_input(options.process, "limbcast-depth-camera");
+    depth_camera::run(options, parser.common());
+  });
+}

@@ -1,0 +1,74 @@
+#include <limbcast/stereo_images_t.hpp>
+
+#include "common/camera/calibration_io.hpp"
+#include "common/lcm_io/calibration_codec.hpp"
+#include "common/lcm_io/image_codec.hpp"
+#include "common/lcm_io/stamp_codec.hpp"
+#include "common/sources/source_process.hpp"
+
+namespace limbcast::stereo_camera {
+namespace {
+
+constexpr std::int64_t kCalibrationPeriod_us = 1'000'000;
+
+struct Options {
+  SourceProcessOptions process;
+  std::string images_channel = "STEREO_IMAGES";
+  std::string calibration_channel = "STEREO_CALIBRATION";
+};
+
+void declare(config::Section& section, Options& options) {
+  options.process.sensor = "stereo";
+  limbcast::declare(section, options.process, "source-right");
+  section.add("images-channel", options.images_channel, "channel of the pairs");
+  section.add("calibration-channel", options.calibration_channel, "channel of the calibration");
+}
+
+stereo_images_t to_message(const FramePair& frame) {
+  stereo_images_t message{};
+  message.stamp = lcm_io::to_message(frame.stamp);
+  message.left = lcm_io::to_message(frame.first);
+  message.right = lcm_io::to_message(frame.second);
+  return message;
+}
+
+void run(const Options& options, const config::CommonOptions& common) {
+  const StereoCalibration calibration = read_stereo_calibration(options.process.calibration);
+  const std::string& sensor = options.process.sensor;
+  const PairFormat format{{"left", "right"},
+                          false,
+                          calibration.left.camera.width,
+                          calibration.left.camera.height,
+                          sensor,
+                          sensor + "/left_rectified",
+                          options.process.source.jpeg_quality};
+  std::optional<std::int64_t> calibration_sent_at;
+  const auto send = [&](Outlet& outlet, const FramePair& frame) {
+    const std::int64_t now = outlet.now(frame.stamp.utime);
+    if (!calibration_sent_at || now - *calibration_sent_at >= kCalibrationPeriod_us) {
+      outlet.send(frame.stamp.utime, options.calibration_channel,
+                  lcm_io::to_message(calibration, now, sensor));
+      calibration_sent_at = now;
+    }
+    outlet.send_frame(options.images_channel, to_message(frame));
+  };
+  run_source("stereo_camera", options.process, common, format, calibration.mounting, send);
+}
+
+}  // namespace
+}  // namespace limbcast::stereo_camera
+
+int main(int argc, char** argv) {
+  using namespace limbcast;
+  return config::run_program("limbcast-stereo-camera", [&] {
+    stereo_camera::Options options;
+    config::Section section("stereo_camera");
+    stereo_camera::declare(section, options);
+    config::Parser parser("limbcast-stereo-camera",
+                          "publishes the pairs of a stereo camera, live or recorded");
+    parser.add(section);
+    if (!parser.parse(argc, argv)) return;
+    require_input(options.process, "limbcast-stereo-camera");
+    stereo_camera::run(options, parser.common());
+  });
+}
