@@ -1,0 +1,44 @@
+#include "common/lcm_io/pose_log.hpp"
+
+#include <limbcast/body_poses_t.hpp>
+
+#include "common/config/log.hpp"
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/log_file.hpp"
+
+namespace limbcast::lcm_io {
+
+PoseLogSummary visit_poses(const std::string& log, const std::string& channel,
+                           const std::function<void(const BodyPoses&)>& visit) {
+  PoseLogSummary summary;
+  LogReader reader(log);
+  while (const auto event = reader.next()) {
+    if (event->channel != channel) continue;
+    BodyPoses poses;
+    try {
+      poses = from_message(decode<body_poses_t>(event->data));
+    } catch (const MessageError& error) {
+      if (summary.malformed++ == 0) summary.first_problem = error.what();
+      continue;
+    }
+    ++summary.messages;
+    visit(poses);
+  }
+  summary.torn_bytes = reader.torn_bytes();
+  return summary;
+}
+
+void warn_about(const PoseLogSummary& summary, const std::string& log, const std::string& channel) {
+  using config::LogLevel;
+  if (summary.malformed > 0)
+    config::log(LogLevel::kWarning, log + ": " + std::to_string(summary.malformed) +
+                                        " malformed messages on " + channel +
+                                        " dropped; the first: " + summary.first_problem);
+  if (summary.torn_bytes > 0)
+    config::log(LogLevel::kWarning, log + ": is torn, its last " +
+                                        std::to_string(summary.torn_bytes) +
+                                        " bytes are no whole message and were left out");
+}
+
+}  // namespace limbcast::lcm_io

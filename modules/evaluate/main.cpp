@@ -1,0 +1,117 @@
+#include <cstdio>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "common/config/log.hpp"
+#include "common/config/options.hpp"
+#include "common/lcm_io/pose_log.hpp"
+#include "common/pose_json/pose_lines.hpp"
+#include "modules/evaluate/picture.hpp"
+#include "modules/evaluate/report.hpp"
+#include "modules/evaluate/truth_folder.hpp"
+
+namespace limbcast::evaluate {
+namespace {
+
+using config::UsageError;
+
+struct Options {
+  std::string log, poses, truth, bodies, json, picture;
+  std::string channel = "BODY_POSES", truth_channel = "GROUND_TRUTH";
+  int worst = 0;
+};
+
+void declare(config::Section& section, Options& options) {
+  section.add("poses", options.poses,
+              "poses that limbcast-export-poses wrote (JSON lines); needs --truth");
+  section.add("truth", options.truth,
+              "folders with NAME_gt.json, separated by commas; default: the truth in the log");
+  section.add("bodies", options.bodies,
+              "count only persons whose body begins so, e.g. D4,D5 (needs --truth); default: all");
+  section.add("json", options.json, "file to write all figures to as JSON");
+  section.add("picture", options.picture, "file to draw the distribution of the errors to (PNG)");
+  section.add("channel", options.channel, "channel of the poses in the log");
+  section.add("truth-channel", options.truth_channel, "channel of the truth in the log");
+  section.add("worst", options.worst, "", "list so many of the worst findings", {0, 1000000});
+}
+
+void check(const Options& options) {
+  if (options.log.empty() == options.poses.empty())
+    throw UsageError("give either a log or --poses FILE; see limbcast-evaluate --help");
+  if (!options.poses.empty() && options.truth.empty())
+    throw UsageError("--poses needs --truth DIR: exported poses carry no truth");
+  if (!options.bodies.empty() && options.truth.empty())
+    throw UsageError("--bodies needs --truth DIR: a log's truth does not name the bodies");
+}
+
+std::vector<BodyPoses> read_log(const std::string& log, const std::string& channel) {
+  std::vector<BodyPoses> frames;
+  const auto summary =
+      lcm_io::visit_poses(log, channel, [&](const BodyPoses& poses) { frames.push_back(poses); });
+  lcm_io::warn_about(summary, log, channel);
+  return frames;
+}
+
+std::vector<TruthFrame> read_truth(const Options& options) {
+  if (!options.truth.empty())
+    return read_truth_folders(split_list(options.truth), split_list(options.bodies));
+  std::vector<TruthFrame> frames;
+  for (BodyPoses& poses : read_log(options.log, options.truth_channel))
+    frames.push_back({std::move(poses), {}});
+  if (frames.empty())
+    throw UsageError(options.log + ": carries no truth on " + options.truth_channel +
+                     "; give the folder of the truth with --truth");
+  return frames;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+void write_picture(const std::string& path, const Tally& tally) {
+  bool written = false;
+  try {
+    written = cv::imwrite(path, draw_error_distribution(tally));
+  } catch (const cv::Exception&) {
+    throw UsageError(path + ": no picture format has this ending; use .png");
+  }
+  if (!written) throw std::runtime_error(path + ": cannot be written");
+}
+
+void run(int argc, const char* const* argv) {
+  Options options;
+  config::Section section("evaluate");
+  declare(section, options);
+  config::Parser parser("limbcast-evaluate", "Compares poses with the truth.");
+  parser.add_positional("[OUT.log]", options.log,
+                        "log that holds poses and truth (limbcast-replay)");
+  parser.add(section);
+  if (!parser.parse(argc, argv)) return;
+  config::configure_log("evaluate", parser.common().log_level);
+  check(options);
+
+  const std::vector<TruthFrame> truth = read_truth(options);
+  const std::vector<BodyPoses> reported = options.poses.empty()
+                                              ? read_log(options.log, options.channel)
+                                              : pose_json::read_file(options.poses);
+  const Tally tally = evaluate(truth, reported);
+  if (tally.frames == tally.frames_not_reported)
+    config::log(config::LogLevel::kWarning,
+                "no frame with truth was reported: do poses and truth belong together?");
+  const Report report = make_report(tally);
+  std::fputs(report_text(report, tally, options.worst).c_str(), stdout);
+  if (!options.json.empty()) write_file(options.json, report_json(report, tally));
+  if (!options.picture.empty()) write_picture(options.picture, tally);
+}
+
+}  // namespace
+}  // namespace limbcast::evaluate
+
+int main(int argc, char** argv) {
+  return limbcast::config::run_program("limbcast-evaluate",
+                                       [&] { limbcast::evaluate::run(argc, argv); });
+}

@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limbcast/body_poses_t.hpp>
+#include <nlohmann/json.hpp>
+
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/pose_json/pose_lines.hpp"
+#include "tests/common/run_program.hpp"
+#include "tests/evaluate/figure.hpp"
+
+namespace limbcast::evaluate {
+namespace {
+
+using limbcast::testing::Outcome;
+using limbcast::testing::run_program;
+using limbcast::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Outcome evaluate_program(const std::vector<std::string>& arguments) {
+  return run_program("limbcast-evaluate", arguments);
+}
+
+BodyPoses stamped(BodyPoses poses) {
+  poses.stamp.sensor = "front";
+  return poses;
+}
+
+/// Two frames, the second with a direction that is 30 degrees off.
+void write_log(const std::string& path, bool with_truth) {
+  lcm_io::LogWriter log(path);
+  for (int i = 0; i < 2; ++i) {
+    if (with_truth)
+      log.write(i, "GROUND_TRUTH", lcm_io::to_message(stamped(frame({pointing_figure()}, i))));
+    const float off_deg = i == 0 ? 0.0F : 30.0F;
+    log.write(i, "BODY_POSES", lcm_io::to_message(stamped(frame({pointing_figure(off_deg)}, i))));
+  }
+  log.close();
+}
+
+nlohmann::json json_of(const std::string& path) {
+  std::ifstream file(path);
+  return nlohmann::json::parse(file);
+}
+
+TEST(EvaluateProgram, JudgesALogByTheTruthInIt) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  const Outcome outcome = evaluate_program({folder / "out.log", "--json", folder / "a.json",
+                                            "--picture", folder / "a.png", "--worst", "1"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("postures right [%]"));
+  EXPECT_THAT(outcome.out, HasSubstr("direction off 30.00"));
+  EXPECT_EQ(json_of(folder / "a.json")["figures"]["pointing_right_percent"]["value"], 50.0);
+  EXPECT_GT(std::filesystem::file_size(folder / "a.png"), 1000U);
+}
+
+TEST(EvaluateProgram, JudgesExportedPosesByAFolder) {
+  const TemporaryFolder folder;
+  folder.write("truth/a_gt.json", R"({"utime":5,"persons":[{"body":"D4_x","joints":{"head":[0,0,2]},
+                                     "visible":{"head":true}}]})");
+  folder.write(
+      "poses.jsonl",
+      R"({"utime":5,"persons":[{"id":1,"error":0,"joints":{"head":[0.03,0,2]},"pointing":null}]})");
+  const Outcome outcome = evaluate_program({"--poses", folder / "poses.jsonl", "--truth",
+                                            folder / "truth", "--json", folder / "a.json"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NEAR(json_of(folder / "a.json")["joints"]["head"]["mean_error_cm"]["value"].get<double>(),
+              3.0, 1e-4);
+}
+
+TEST(EvaluateProgram, WarnsWherePosesAndTruthShareNoFrame) {
+  const TemporaryFolder folder;
+  folder.write("truth/a_gt.json", R"({"utime":5,"persons":[]})");
+  folder.write("poses.jsonl", R"({"utime":6,"persons":[]})");
+  const Outcome outcome =
+      evaluate_program({"--poses", folder / "poses.jsonl", "--truth", folder / "truth"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("belong together"));
+}
+
+TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
+  const TemporaryFolder folder;
+  write_log(folder / "bare.log", false);
+  folder.write("empty.log", "");
+  folder.write("foreign.log", "a text, no log");
+  folder.write("poses.jsonl", "{}\n");
+  folder.write("truth/a_gt.json", R"({"utime":5,"persons":[]})");
+  const auto expect_usage_error = [](const std::vector<std::string>& arguments,
+                                     const std::string& text) {
+    const Outcome outcome = evaluate_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << text;
+    EXPECT_THAT(outcome.err, StartsWith("limbcast-evaluate: "));
+    EXPECT_THAT(outcome.err, HasSubstr(text));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect_usage_error({}, "give either a log or --poses");
+  expect_usage_error({folder / "none.log"}, "no such file");
+  expect_usage_error({folder / "empty.log"}, "is empty");
+  expect_usage_error({folder / "foreign.log"}, "is no LCM log");
+  expect_usage_error({folder / "bare.log"}, "carries no truth");
+  expect_usage_error({folder / "bare.log", "--bodies", "D4"}, "--bodies needs --truth");
+  expect_usage_error({"--poses", folder / "poses.jsonl"}, "--poses needs --truth");
+  expect_usage_error({"--poses", folder / "poses.jsonl", "--truth", folder / "truth"},
+                     "line 1: 'utime' is missing");
+  expect_usage_error({folder / "bare.log", "--truth", folder / "none"}, "cannot be read");
+  expect_usage_error({folder / "bare.log", "--frobnicate", "1"}, "frobnicate");
+}
+
+TEST(EvaluateProgram, GoesOnWithATornLog) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  std::filesystem::resize_file(folder / "out.log",
+                               std::filesystem::file_size(folder / "out.log") - 10);
+  const Outcome outcome = evaluate_program({folder / "out.log"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("is torn"));
+  EXPECT_THAT(outcome.out, HasSubstr("2 frames with truth, 1 of them not reported"));
+}
+
+}  // namespace
+}  // namespace limbcast::evaluate
