@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# From nothing to poses: installs and builds what is missing, runs the chain as separate processes over LCM on a
+# recording, prints a line for each frame and person, and ends with pictures and the accuracy.
+#   modules/demo.sh                            the demo log of this repository
+#   modules/demo.sh FOLDER_OR_LOG [CALIBRATION]  your own: *_left/*_right images, *_color/*_depth images, or a log
+#                                              made by lcm-logger; CALIBRATION: default FOLDER/calibration.yml
+# Settings (environment): DEMO_OUTPUT folder for log and pictures, DEMO_RATE frames a second.
+set -euo pipefail
+start_folder=$PWD
+cd "$(dirname "$0")/.."
+root=$PWD
+
+input=${1:-$root/logs/demo.log}
+calibration=${2:-}
+rate=${DEMO_RATE:-5}
+output=${DEMO_OUTPUT:-$root/demo-output}
+case $input in /*) ;; *) input=$start_folder/$input ;; esac
+case $output in /*) ;; *) output=$start_folder/$output ;; esac
+bin=$root/build/release/bin
+
+fail() { echo "demo: $*" >&2; exit 1; }
+step() { printf '\n[%s/5] %s\n' "$1" "$2"; }
+
+pids=()
+cleanup() {
+  trap - EXIT INT TERM
+  [ ${#pids[@]} -eq 0 ] || kill "${pids[@]}" 2>/dev/null || true
+  wait 2>/dev/null || true
+}
+trap cleanup EXIT
+trap 'cleanup; exit 130' INT TERM
+
+[ -e "$input" ] || fail "$input: no such folder or log"
+
+step 1 "What limbcast needs"
+modules/install_dependencies.sh run
+echo "all there"
+
+step 2 "Build"
+build_log=$(mktemp)
+cmake --preset release >"$build_log" 2>&1 || { tail -n 30 "$build_log" >&2; fail "cmake failed, see above"; }
+cmake --build --preset release --target limbcast_programs
+rm -f "$build_log"
+
+# What feeds the chain: the camera process of this kind of recording.
+if [ -d "$input" ]; then
+  calibration=${calibration:-$input/calibration.yml}
+  [ -e "$calibration" ] || fail "$calibration: no such calibration; give it as second argument"
+  if compgen -G "$input/*_left.*" >/dev/null; then
+    camera=(limbcast-stereo-camera --source "$input" --calibration "$calibration")
+  elif compgen -G "$input/*_color.*" >/dev/null; then
+    camera=(limbcast-depth-camera --source "$input" --calibration "$calibration")
+  else
+    fail "$input: holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images"
+  fi
+elif grep -aq -m 1 DEPTH_IMAGES "$input"; then
+  camera=(limbcast-depth-camera --source "$input")
+else
+  camera=(limbcast-stereo-camera --source "$input")
+fi
+
+step 3 "Run: ${camera[0]#limbcast-}, reconstructor, segmenter, pose-fitter, recorded by lcm-logger"
+# A port of its own, so that no other LCM traffic is disturbed; ttl=0: nothing leaves this host.
+export LCM_DEFAULT_URL="udpm://239.255.76.67:$((20000 + $$ % 30000))?ttl=0&recv_buf_size=2000000"
+if ! ip route get 239.255.76.67 >/dev/null 2>&1; then
+  # Without any network the kernel has no route for multicast; over the loopback device it stays here.
+  ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo ||
+    fail "no multicast route; as root: ip link set lo multicast on; ip route add 224.0.0.0/4 dev lo"
+fi
+rm -rf "$output"
+mkdir -p "$output/processes"
+run_log=$output/run.log
+
+start() {  # start NAME COMMAND...
+  local name=$1
+  shift
+  "$@" >"$output/processes/$name.txt" 2>&1 &
+  pids+=($!)
+}
+start lcm-logger lcm-logger --quiet "$run_log"
+logger=${pids[-1]}
+for module in reconstructor segmenter pose-fitter; do start "$module" "$bin/limbcast-$module"; done
+"$bin/limbcast-export-poses" --format text 2>"$output/processes/export-poses.txt" |
+  tee "$output/poses.txt" &
+pids+=($!)
+for module in reconstructor segmenter pose-fitter export-poses; do
+  until grep -q "INFO" "$output/processes/$module.txt" 2>/dev/null; do
+    kill -0 "${pids[@]}" 2>/dev/null || { cat "$output/processes/"*.txt >&2; fail "a process did not start"; }
+    sleep 0.1
+  done
+done
+"$bin/${camera[0]}" "${camera[@]:1}" --rate "$rate" >"$output/processes/camera.txt" 2>&1 ||
+  { cat "$output/processes/camera.txt" >&2; fail "the camera process failed"; }
+# The last frames are still on their way: done when no line has come for a second.
+before=-1
+while now=$(wc -l <"$output/poses.txt") && [ "$now" -ne "$before" ]; do
+  before=$now
+  sleep 1
+done
+kill -INT "$logger"
+cleanup
+trap cleanup EXIT
+pids=()
+[ -s "$output/poses.txt" ] || { tail -n 3 "$output/processes/"*.txt >&2; fail "no pose came out, see above"; }
+
+step 4 "Pictures"
+"$bin/limbcast-viewer" "$run_log" --png "$output/pictures"
+
+step 5 "Accuracy against the truth in the recording"
+"$bin/limbcast-evaluate" "$run_log" --brief || true
+
+echo
+echo "Log:      $run_log  (lcm-logplayer $run_log)"
+echo "Pictures: $output/pictures"

@@ -1,0 +1,49 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWrongUsage = 2;
+
+class EveryProgram : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EveryProgram, ExplainsItselfWithHelp) {
+  const RunResult result = run({program(GetParam()), "--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, HasSubstr("Usage: " + std::string(GetParam())));
+  EXPECT_THAT(result.output, HasSubstr("--lcm-url"));
+  EXPECT_THAT(result.output, HasSubstr("default"));
+}
+
+TEST_P(EveryProgram, TellsItsVersion) {
+  const RunResult result = run({program(GetParam()), "--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, HasSubstr(std::string(GetParam()) + " 0.1.0"));
+}
+
+TEST_P(EveryProgram, RefusesAnUnknownOptionInOneLine) {
+  const RunResult result = run({program(GetParam()), "--no-such-option=1"});
+  EXPECT_EQ(result.exit_code, kWrongUsage);
+  EXPECT_THAT(result.output, HasSubstr("no-such-option"));
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+}
+
+TEST_P(EveryProgram, RefusesAMissingConfigurationFile) {
+  const RunResult result = run({program(GetParam()), "--config", "/nowhere/robot.conf"});
+  EXPECT_EQ(result.exit_code, kWrongUsage) << result.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram,
+                         ::testing::Values("limbcast-stereo-camera", "limbcast-depth-camera",
+                                           "limbcast-reconstructor", "limbcast-segmenter",
+                                           "limbcast-pose-fitter", "limbcast-replay",
+                                           "limbcast-export-poses", "limbcast-evaluate",
+                                           "limbcast-viewer"));
+
+}  // namespace
+}  // namespace limbcast::test

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds with warnings as errors, checks format and clang-tidy on what changed, and
+# runs every test. Ends with ctest's summary.
+#   tests/run.sh [CTEST ARGUMENTS]     e.g. tests/run.sh -R Segmenter
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+step() { printf '\n== %s\n' "$*"; }
+
+step "dependencies"
+modules/install_dependencies.sh test
+
+step "format"
+sources=$(git ls-files '*.cpp' '*.hpp')
+[ -z "$sources" ] || echo "$sources" | xargs clang-format --dry-run --Werror
+echo "$(echo "$sources" | wc -l) files are formatted"
+
+step "build, warnings are errors"
+cmake --preset ci
+cmake --build --preset ci
+
+step "clang-tidy on changed files"
+# Changed: against the commit that LIMBCAST_TIDY_BASE names, or else by the last commit and the work tree.
+base=${LIMBCAST_TIDY_BASE:-$(git rev-parse --verify -q HEAD~1 || git rev-parse HEAD)}
+changed=$(git diff --name-only --diff-filter=d "$base" -- '*.cpp' | sort -u)
+if [ -n "$changed" ]; then
+  echo "$changed"
+  echo "$changed" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/release --quiet
+else
+  echo "no source file changed"
+fi
+
+step "tests"
+ctest --preset ci -j "$(nproc)" "$@"
