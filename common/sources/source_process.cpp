@@ -7,7 +7,7 @@
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
-#include "common/sources/pacer.hpp"
+#include "common/sources/log_playback.hpp"
 
 namespace limbcast {
 namespace {
@@ -48,15 +48,6 @@ class Sender {
   std::int64_t num_sent_ = 0;
 };
 
-void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
-  while (!lcm_io::stop_requested()) {
-    module.spin_once();
-    const auto now = Pacer::Clock::now();
-    if (now >= due) return;
-    std::this_thread::sleep_for(std::min<Pacer::Clock::duration>(kTick, due - now));
-  }
-}
-
 void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module) {
   module.set_note(std::to_string(statistics.dropped) + " dropped, " +
                   std::to_string(statistics.unpaired) + " unpaired, " +
@@ -89,9 +80,20 @@ void write_log(PairSource& source, Sender& sender, const std::string& path) {
 
 }  // namespace
 
+void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
+  while (!lcm_io::stop_requested()) {
+    module.spin_once();
+    const auto now = Pacer::Clock::now();
+    if (now >= due) return;
+    std::this_thread::sleep_for(std::min<Pacer::Clock::duration>(kTick, due - now));
+  }
+}
+
 void require_input(const SourceProcessOptions& options, const std::string& program) {
   for (const auto& [key, value] : {std::pair("source", &options.source.source),
                                    std::pair("calibration", &options.calibration)}) {
+    // A log carries the calibration with the images.
+    if (key == std::string("calibration") && is_lcm_log(options.source.source)) continue;
     if (value->empty()) {
       throw config::UsageError(std::string("--") + key + " is missing; see " + program + " --help");
     }
@@ -101,8 +103,9 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key) {
   SourceOptions& source = options.source;
-  section.add("source", source.source,
-              "folder of pictures, video file, /dev/videoN, gst:PIPELINE or a stream's URL");
+  section.add(
+      "source", source.source,
+      "folder of pictures, video file, LCM log, /dev/videoN, gst:PIPELINE or a stream's URL");
   section.add(second_key, source.second_source,
               "camera or video of the second image, where it has one of its own");
   section.add("calibration", options.calibration,

@@ -9,6 +9,7 @@
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "common/sources/open_source.hpp"
+#include "common/sources/pacer.hpp"
 
 namespace limbcast {
 
@@ -29,7 +30,7 @@ struct SourceProcessOptions {
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key);
 
-/// Throws config::UsageError unless source and calibration are given.
+/// Throws config::UsageError unless source and, for all but a log, calibration are given.
 void require_input(const SourceProcessOptions& options, const std::string& program);
 
 /// Mounting as the options tell it. Throws config::UsageError for a `down` that is no unit vector.
@@ -68,6 +69,9 @@ class Outlet {
   lcm_io::Module* module_ = nullptr;
   lcm_io::LogWriter* log_ = nullptr;
 };
+
+/// Returns when `due` has come or the program is told to end; the module's status goes on.
+void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module);
 
 /// Sends one frame with what belongs to it.
 using SendFrame = std::function<void(Outlet&, const FramePair&)>;

@@ -4,6 +4,7 @@
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
+#include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
 
 namespace limbcast::depth_camera {
@@ -32,6 +33,11 @@ depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibr
 }
 
 void run(const Options& options, const config::CommonOptions& common) {
+  if (is_lcm_log(options.process.source.source)) {
+    play_log<depth_images_t>("depth_camera", options.process, common,
+                             {options.images_channel, "", options.process.truth_channel});
+    return;
+  }
   const DepthCalibration calibration = read_depth_calibration(options.process.calibration);
   const std::string& sensor = options.process.sensor;
   const PairFormat format{{"color", "depth"},

@@ -4,6 +4,7 @@
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
+#include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
 
 namespace limbcast::stereo_camera {
@@ -33,6 +34,12 @@ stereo_images_t to_message(const FramePair& frame) {
 }
 
 void run(const Options& options, const config::CommonOptions& common) {
+  if (is_lcm_log(options.process.source.source)) {
+    play_log<stereo_images_t>(
+        "stereo_camera", options.process, common,
+        {options.images_channel, options.calibration_channel, options.process.truth_channel});
+    return;
+  }
   const StereoCalibration calibration = read_stereo_calibration(options.process.calibration);
   const std::string& sensor = options.process.sensor;
   const PairFormat format{{"left", "right"},

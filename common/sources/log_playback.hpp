@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "common/sources/source_process.hpp"
+
+namespace limbcast {
+
+/// Whether the source is a log made by lcm-logger (or by a camera process with --log).
+bool is_lcm_log(const std::string& source);
+
+/// What of a log belongs to a camera; all else in it stays where it is.
+struct PlaybackChannels {
+  std::string frames;
+  std::string calibration;  ///< empty: the sensor has none of its own
+  std::string truth;
+};
+
+/// Sends a camera's messages of a log again: frames at the rate that the options say, calibration
+/// and truth with them, byte by byte unless times change (restamp, loop). Message: the type of the
+/// frames. Throws InputError where the log holds no such frame.
+template <class Message>
+void play_log(const std::string& module_name, const SourceProcessOptions& options,
+              const config::CommonOptions& common, const PlaybackChannels& channels);
+
+}  // namespace limbcast
