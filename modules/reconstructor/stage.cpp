@@ -1,0 +1,46 @@
+#include "modules/reconstructor/stage.hpp"
+
+#include "common/lcm_io/calibration_codec.hpp"
+#include "common/lcm_io/depth_images_codec.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/lcm_io/stereo_images_codec.hpp"
+
+namespace limbcast::reconstructor {
+
+void declare(config::Section& section, StageOptions& options) {
+  declare(section, options.algorithm);
+  section.add("stereo-images-channel", options.stereo_images_channel, "input: stereo pairs");
+  section.add("stereo-calibration-channel", options.stereo_calibration_channel,
+              "input: their calibration");
+  section.add("depth-images-channel", options.depth_images_channel,
+              "input: frames of a depth camera");
+  section.add("point-cloud-channel", options.point_cloud_channel, "output: point clouds");
+}
+
+void Stage::on_calibration(stereo_calibration_t message) {
+  message.utime = 0;  // sent once a second, but the same
+  std::vector<std::uint8_t> bytes(message.getEncodedSize());
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  Camera& camera = cameras_[message.sensor];
+  if (camera.calibration == bytes) return;
+  camera.reconstructor = std::make_shared<const StereoReconstructor>(lcm_io::from_message(message),
+                                                                     options_.algorithm);
+  camera.calibration = std::move(bytes);
+}
+
+std::shared_ptr<const StereoReconstructor> Stage::find(const std::string& sensor) const {
+  const auto known = cameras_.find(sensor);
+  return known == cameras_.end() ? nullptr : known->second.reconstructor;
+}
+
+point_cloud_t Stage::process(const StereoReconstructor& reconstructor,
+                             const stereo_images_t& images) {
+  return lcm_io::to_message(reconstructor.reconstruct(lcm_io::from_message(images)));
+}
+
+point_cloud_t Stage::process(const depth_images_t& images) const {
+  const auto [frame, calibration] = lcm_io::from_message(images);
+  return lcm_io::to_message(DepthReconstructor(calibration, options_.algorithm).reconstruct(frame));
+}
+
+}  // namespace limbcast::reconstructor

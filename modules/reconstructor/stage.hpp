@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <limbcast/depth_images_t.hpp>
+#include <limbcast/point_cloud_t.hpp>
+#include <limbcast/stereo_calibration_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/config/options.hpp"
+#include "modules/reconstructor/options.hpp"
+#include "modules/reconstructor/reconstructor.hpp"
+
+namespace limbcast::reconstructor {
+
+struct StageOptions {
+  ReconstructorOptions algorithm;
+  std::string stereo_images_channel = "STEREO_IMAGES";
+  std::string stereo_calibration_channel = "STEREO_CALIBRATION";
+  std::string depth_images_channel = "DEPTH_IMAGES";
+  std::string point_cloud_channel = "POINT_CLOUD";
+};
+
+/// Binds the keys of section [reconstructor].
+void declare(config::Section& section, StageOptions& options);
+
+/// From messages to messages: the one wiring of the reconstructor, for the process and for
+/// limbcast-replay.
+class Stage {
+ public:
+  explicit Stage(const StageOptions& options) : options_(options) {}
+
+  /// Makes the sensor's reconstructor anew where the calibration is another one than before. Throws
+  /// MessageError or std::invalid_argument where it cannot be used.
+  void on_calibration(stereo_calibration_t message);
+  /// The reconstructor of that sensor; null as long as its calibration has not come. Several
+  /// threads may use it, and it stays as it is when a new calibration comes.
+  std::shared_ptr<const StereoReconstructor> find(const std::string& sensor) const;
+
+  static point_cloud_t process(const StereoReconstructor& reconstructor,
+                               const stereo_images_t& images);
+  point_cloud_t process(const depth_images_t& images) const;
+
+ private:
+  struct Camera {
+    std::vector<std::uint8_t> calibration;
+    std::shared_ptr<const StereoReconstructor> reconstructor;
+  };
+  StageOptions options_;
+  std::map<std::string, Camera> cameras_;
+};
+
+}  // namespace limbcast::reconstructor

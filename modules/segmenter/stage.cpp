@@ -1,0 +1,18 @@
+#include "modules/segmenter/stage.hpp"
+
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/lcm_io/segments_codec.hpp"
+
+namespace limbcast::segmenter {
+
+void declare(config::Section& section, StageOptions& options) {
+  declare(section, options.algorithm);
+  section.add("point-cloud-channel", options.point_cloud_channel, "input: point clouds");
+  section.add("segments-channel", options.segments_channel, "output: person candidates");
+}
+
+segments_t Stage::process(const point_cloud_t& cloud) const {
+  return lcm_io::to_message(segmenter_.segment(lcm_io::from_message(cloud)));
+}
+
+}  // namespace limbcast::segmenter
