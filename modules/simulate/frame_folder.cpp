@@ -1,0 +1,129 @@
+#include "modules/simulate/frame_folder.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "common/config/options.hpp"
+#include "modules/simulate/truth.hpp"
+
+namespace limbcast::simulate {
+namespace {
+
+void write_image(const std::string& path, const cv::Mat& image) {
+  if (image.empty()) return;
+  if (!cv::imwrite(path, image, {cv::IMWRITE_JPEG_QUALITY, 95, cv::IMWRITE_PNG_COMPRESSION, 3})) {
+    throw std::runtime_error(path + ": cannot be written");
+  }
+}
+
+cv::Mat millimetres(const cv::Mat& depth_m) {
+  cv::Mat result;
+  if (!depth_m.empty()) depth_m.convertTo(result, CV_16U, 1000.0);
+  return result;
+}
+
+cv::Mat camera_matrix(const PinholeCamera& camera) {
+  return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+}
+
+void write_stereo_calibration(cv::FileStorage& file, const PinholeCamera& camera,
+                              double baseline_m) {
+  const cv::Mat matrix = camera_matrix(camera);
+  const cv::Mat identity = cv::Mat::eye(3, 3, CV_64F);
+  const cv::Mat translation = (cv::Mat_<double>(3, 1) << -baseline_m, 0, 0);
+  const cv::Mat no_distortion = cv::Mat::zeros(1, 5, CV_64F);
+  cv::Mat left_projection;
+  cv::hconcat(matrix, cv::Mat::zeros(3, 1, CV_64F), left_projection);
+  cv::Mat right_projection = left_projection.clone();
+  right_projection.at<double>(0, 3) = -camera.fx * baseline_m;
+  cv::Mat q = cv::Mat::eye(4, 4, CV_64F);
+  q.at<double>(0, 3) = -camera.cx;
+  q.at<double>(1, 3) = -camera.cy;
+  q.at<double>(2, 2) = 0.0;
+  q.at<double>(2, 3) = camera.fx;
+  q.at<double>(3, 2) = 1.0 / baseline_m;
+  q.at<double>(3, 3) = 0.0;
+  file << "K1" << matrix << "D1" << no_distortion << "K2" << matrix << "D2" << no_distortion;
+  file << "R" << identity << "T" << translation;
+  file << "R1" << identity << "R2" << identity << "P1" << left_projection << "P2"
+       << right_projection << "Q" << q;
+}
+
+void write_calibration(const std::string& path, const SimulatorParams& params) {
+  cv::FileStorage file(path, cv::FileStorage::WRITE);
+  if (!file.isOpened()) throw config::UsageError(path + ": cannot be written");
+  file << "image_width" << params.camera.width << "image_height" << params.camera.height;
+  if (params.sensor == SensorKind::kStereo) {
+    write_stereo_calibration(file, params.camera, params.baseline_m);
+    return;
+  }
+  file << "camera_matrix" << camera_matrix(params.camera);
+  file << "distortion_coefficients" << cv::Mat(cv::Mat::zeros(1, 5, CV_64F)) << "depth_scale"
+       << 0.001;
+}
+
+void write_pcd(const std::string& path, const LaserScan& scan) {
+  std::ofstream file(path, std::ios::binary);
+  file << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 "
+          "4 4 4\n"
+       << "TYPE F F F F\nCOUNT 1 1 1 1\nWIDTH " << scan.width << "\nHEIGHT " << scan.height
+       << "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << scan.points_m.size() << "\nDATA binary\n";
+  for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+    const float record[4] = {scan.points_m[i].x(), scan.points_m[i].y(), scan.points_m[i].z(),
+                             scan.intensities[i]};
+    file.write(reinterpret_cast<const char*>(record), sizeof(record));
+  }
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace
+
+FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& params)
+    : folder_(folder), params_(params) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  timestamps_.open(folder + "/timestamps.csv");
+  if (error || !timestamps_)
+    throw config::UsageError(folder + ": cannot write there; choose another --output");
+  timestamps_ << "name,utime,down_x,down_y,down_z\n";
+  if (params.sensor != SensorKind::kLaser) write_calibration(folder + "/calibration.yml", params);
+}
+
+std::string FrameFolder::path(const SimulatedFrame& frame, const std::string& ending) const {
+  return folder_ + "/" + frame.scenario.name + ending;
+}
+
+void FrameFolder::write(const SimulatedFrame& frame) {
+  PinholeCamera view = params_.camera;
+  if (params_.sensor == SensorKind::kLaser) {
+    view = {};
+    write_pcd(path(frame, ".pcd"), frame.laser);
+  } else if (params_.sensor == SensorKind::kStereo) {
+    write_image(path(frame, "_left.jpg"), frame.left);
+    write_image(path(frame, "_right.jpg"), frame.right);
+    if (!params_.blind) write_image(path(frame, "_depth.png"), millimetres(frame.true_depth_m));
+  } else {
+    write_image(path(frame, "_color.jpg"), frame.left);
+    write_image(path(frame, "_depth.png"), millimetres(frame.sensed_depth_m));
+    if (!params_.blind) write_image(path(frame, "_true.png"), millimetres(frame.true_depth_m));
+  }
+  if (!params_.blind) {
+    write_image(path(frame, "_mask.png"), frame.mask);
+    write_image(path(frame, "_labels.png"), frame.labels);
+  }
+  std::ofstream truth(path(frame, "_gt.json"));
+  truth << truth_json(frame.scenario, view, frame.pixels).dump(1) << "\n";
+  const Eigen::Vector3d& down = frame.told_down;
+  char line[160];
+  std::snprintf(line, sizeof(line), "%s,%lld,%.5f,%.5f,%.5f\n", frame.scenario.name.c_str(),
+                static_cast<long long>(frame.scenario.utime), down.x(), down.y(), down.z());
+  timestamps_ << line << std::flush;
+  if (!truth || !timestamps_)
+    throw std::runtime_error(path(frame, "_gt.json") + ": cannot be written");
+}
+
+}  // namespace limbcast::simulate

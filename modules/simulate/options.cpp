@@ -1,0 +1,88 @@
+#include "modules/simulate/options.hpp"
+
+#include <map>
+
+namespace limbcast::simulate {
+
+void declare(config::Section& section, SimulateOptions& options) {
+  SimulatorParams& params = options.params;
+  section.add("output", options.output, "folder to write the frames to");
+  section.add("frames", options.frames, "", "how many frames", {1, 1000000});
+  section.add("first", options.first, "", "number of the first frame", {0, 1000000});
+  section.add("seed", options.seed, "", "of all that is drawn; the same seed gives the same frames",
+              {0, 1000000000});
+  section.add_choice("set", options.set, {"pointing", "general", "multi", "nohuman", "sequence"},
+                     "what people do");
+  section.add_choice(
+      "sensor", options.sensor, {"stereo", "stereo-depth", "depth", "laser"},
+      "a pair of pictures, the depth that matching gives, a depth camera, a laser range finder");
+  section.add_choice("noise", options.noise, {"varied", "fixed"},
+                     "another device with every frame, or a mean one");
+  section.add("persons", options.persons, "", "people in a frame, 0 = as the set has it", {0, 8});
+  section.add("color", params.color, "pictures for depth cameras too");
+  section.add("blind", params.blind, "no masks, labels and true depth");
+  section.add("min-distance-m", params.scenario.min_distance_m, "m", "of people from the camera",
+              {0.5, 20.0});
+  section.add("max-distance-m", params.scenario.max_distance_m, "m", "of people from the camera",
+              {0.5, 20.0});
+  section.add("min-camera-height-m", params.scenario.min_camera_height_m, "m", "over the ground",
+              {0.05, 5.0});
+  section.add("max-camera-height-m", params.scenario.max_camera_height_m, "m", "over the ground",
+              {0.05, 5.0});
+  section.add("occluder-share", params.scenario.occluder_share, "",
+              "of frames with something before a person", {0.0, 1.0});
+  section.add("child-share", params.scenario.body.child_share, "", "of people who are children",
+              {0.0, 1.0});
+  section.add("frame-rate-hz", params.scenario.frame_rate_hz, "Hz", "of a sequence", {0.1, 1000.0});
+  section.add("width-px", params.camera.width, "px", "of the pictures", {32, 8192});
+  section.add("height-px", params.camera.height, "px", "of the pictures", {32, 8192});
+  section.add("focal-px", params.camera.fx, "px", "focal length", {20.0, 20000.0});
+  section.add("baseline-m", params.baseline_m, "m", "of the stereo camera", {0.01, 5.0});
+  section.add("rings", params.laser.rings, "", "rows of the laser range finder", {1, 2048});
+  section.add("azimuth-step-deg", params.laser.azimuth_step_deg, "deg",
+              "between two returns of a row", {0.01, 5.0});
+  section.add("max-azimuth-deg", params.laser.max_azimuth_deg, "deg",
+              "the laser sweeps to both sides", {1.0, 180.0});
+  section.add("max-elevation-deg", params.laser.max_elevation_deg, "deg",
+              "the laser looks up and down", {1.0, 90.0});
+  section.add("range-sigma-m", params.laser.range_sigma_m, "m", "noise of the laser", {0.0, 1.0});
+  section.add("organised", params.laser.organised, "keep the laser's rows, with NaN for no return");
+}
+
+SimulatorParams to_params(const SimulateOptions& options) {
+  static const std::map<std::string, SetKind> sets = {{"pointing", SetKind::kPointing},
+                                                      {"general", SetKind::kGeneral},
+                                                      {"multi", SetKind::kMulti},
+                                                      {"nohuman", SetKind::kNoHuman},
+                                                      {"sequence", SetKind::kSequence}};
+  static const std::map<std::string, SensorKind> sensors = {
+      {"stereo", SensorKind::kStereo},
+      {"stereo-depth", SensorKind::kStereoDepth},
+      {"depth", SensorKind::kDepth},
+      {"laser", SensorKind::kLaser}};
+  SimulatorParams params = options.params;
+  if (options.output.empty())
+    throw config::UsageError("--output is missing: the folder to write the frames to");
+  if (params.scenario.min_distance_m >= params.scenario.max_distance_m) {
+    throw config::UsageError("--min-distance-m must be less than --max-distance-m");
+  }
+  if (params.scenario.min_camera_height_m > params.scenario.max_camera_height_m) {
+    throw config::UsageError("--min-camera-height-m must not be more than --max-camera-height-m");
+  }
+  params.scenario.set = sets.at(options.set);
+  params.sensor = sensors.at(options.sensor);
+  params.vary_noise = options.noise == "varied";
+  params.scenario.min_persons = params.scenario.max_persons = options.persons;
+  params.laser.min_azimuth_deg = -params.laser.max_azimuth_deg;
+  params.laser.min_elevation_deg = -params.laser.max_elevation_deg;
+  PinholeCamera& camera = params.camera;
+  camera.fy = camera.fx;
+  const PinholeCamera standard = SimulatorParams{}.camera;
+  if (camera.width != standard.width || camera.height != standard.height) {
+    camera.cx = 0.5 * (camera.width - 1);
+    camera.cy = 0.5 * (camera.height - 1);
+  }
+  return params;
+}
+
+}  // namespace limbcast::simulate

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "common/config/options.hpp"
+#include "modules/simulate/simulator.hpp"
+
+namespace limbcast::simulate {
+
+/// Options of limbcast-simulate: what users turn, with their defaults.
+struct SimulateOptions {
+  std::string output;
+  std::string set = "pointing";
+  std::string sensor = "stereo";
+  std::string noise = "varied";
+  int frames = 20, first = 0, seed = 1, persons = 0;
+  SimulatorParams params;
+};
+
+/// Binds the keys of section [simulate].
+void declare(config::Section& section, SimulateOptions& options);
+
+/// The parameters that the options ask for. Throws config::UsageError where they contradict one
+/// another.
+SimulatorParams to_params(const SimulateOptions& options);
+
+}  // namespace limbcast::simulate

@@ -1,0 +1,369 @@
+#include "modules/simulate/postures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "modules/simulate/body_surface.hpp"
+
+namespace limbcast::simulate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979;
+double radians(double degrees) { return degrees * kPi / 180.0; }
+
+/// Where the wrist of a resting or busy arm is: fractions of a mean adult's stature from the neck
+/// joint (x outward, y up, z forward), and where its elbow goes. Chosen by eye on rendered figures.
+struct ArmHabit {
+  Vector3d wrist, spread, pole;
+  HandShape hand = HandShape::kOpen;
+};
+
+const std::map<std::string, ArmHabit>& arm_habits() {
+  static const std::map<std::string, ArmHabit> habits = {
+      {"hang", {{0.140, -0.360, 0.045}, {0.020, 0.010, 0.030}, {0.3, 0, -1}}},
+      {"akimbo", {{0.120, -0.310, 0.045}, {0.012, 0.015, 0.020}, {1, 0, -0.5}, HandShape::kFist}},
+      {"phone", {{0.090, 0.030, 0.060}, {0.010, 0.012, 0.012}, {0.6, -1, 0.2}, HandShape::kFist}},
+      {"folded", {{-0.050, -0.155, 0.125}, {0.020, 0.018, 0.008}, {1, -0.7, 0}}},
+      {"carry", {{0.075, -0.230, 0.200}, {0.020, 0.040, 0.030}, {0.5, -1, -0.3}}},
+      {"drink", {{0.030, 0.020, 0.150}, {0.015, 0.010, 0.015}, {0.6, -1, 0}, HandShape::kFist}},
+      {"chin", {{0.020, -0.035, 0.120}, {0.010, 0.008, 0.010}, {0.4, -1, 0}, HandShape::kFist}},
+      {"behindhead", {{0.060, 0.075, -0.060}, {0.012, 0.015, 0.010}, {1, 0.3, -0.1}}},
+      {"clap", {{0.020, -0.090, 0.190}, {0.008, 0.030, 0.030}, {1, -0.8, 0}}},
+      {"back", {{0.010, -0.320, -0.105}, {0.015, 0.015, 0.010}, {1, 0, -0.6}}},
+      {"pocket", {{0.125, -0.345, 0.045}, {0.010, 0.010, 0.012}, {0.5, 0, -1}, HandShape::kFist}},
+      {"lap", {{0.060, -0.300, 0.150}, {0.025, 0.012, 0.040}, {1, 0, -0.4}}},
+      {"texting", {{0.020, -0.120, 0.180}, {0.015, 0.030, 0.030}, {0.5, -1, 0}, HandShape::kFist}},
+      {"gesture", {{0.120, -0.130, 0.190}, {0.050, 0.080, 0.050}, {0.6, -1, -0.2}}},
+  };
+  return habits;
+}
+
+/// Unit vector, `azimuth` outward from straight ahead, `elevation` over the horizon.
+Vector3d heading(double azimuth_deg, double elevation_deg) {
+  const double a = radians(azimuth_deg);
+  const double e = radians(elevation_deg);
+  return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+ArmPose habitual(Rng& rng, const BodyShape& body, const std::string& name) {
+  const ArmHabit& habit = arm_habits().at(name);
+  Vector3d wrist = habit.wrist;
+  for (int axis = 0; axis < 3; ++axis) wrist[axis] += rng.normal(0.0, habit.spread[axis]);
+  const double trunk = (body.pelvis_chest_m + body.chest_neck_m) / 0.343;
+  const double up = wrist.y() > 0.0 ? body.neck_head_m / 0.076 : trunk;
+  const double girth = 0.5 * body.stature_m * (1.0 + std::max(body.trunk_girth, body.waist_girth)) +
+                       1.5 * body.clothes.torso_m;
+  wrist = Vector3d(wrist.x() * girth, wrist.y() * up, wrist.z() * girth + 0.5 * body.belly_m);
+  if (name == "hang") wrist *= (body.upper_arm_m + body.forearm_m) / (0.299 * body.stature_m);
+  ArmPose arm = reach(body, wrist, habit.pole);
+  arm.hand = habit.hand;
+  arm.hand_bend_rad = rng.normal(0.1, 0.15);
+  arm.hand_roll_rad = rng.normal(0.0, 0.4);
+  return arm;
+}
+
+/// A nearly straight arm along `direction`.
+ArmPose stretched(Rng& rng, const BodyShape& body, const Vector3d& direction, double bend_deg,
+                  HandShape hand) {
+  const double a = body.upper_arm_m;
+  const double b = body.forearm_m;
+  const double length = std::sqrt(a * a + b * b + 2.0 * a * b * std::cos(radians(bend_deg)));
+  ArmPose arm;
+  arm.upper = direction;
+  for (int i = 0; i < 3; ++i) {  // the shoulder follows the upper arm
+    arm = reach(body, shoulder_offset_m(body, arm.upper) + length * direction,
+                {0.5 + rng.normal(0.0, 0.2), -1.0, -0.3});
+  }
+  arm.hand = hand;
+  arm.hand_bend_rad = rng.normal(0.0, 0.10);
+  arm.hand_roll_rad = rng.normal(0.0, 0.5);
+  return arm;
+}
+
+ArmPose bent(Rng& rng, const Vector3d& upper, const Vector3d& fore, HandShape hand) {
+  ArmPose arm;
+  arm.upper = (upper + 0.12 * Vector3d(rng.normal(), rng.normal(), rng.normal())).normalized();
+  arm.fore = (fore + 0.15 * Vector3d(rng.normal(), rng.normal(), rng.normal())).normalized();
+  arm.hand = hand;
+  arm.hand_roll_rad = rng.normal(0.0, 0.4);
+  return arm;
+}
+
+/// Any arm within the joints' limits: elbow 0 to 145 degrees, not far behind the back.
+ArmPose any_arm(Rng& rng) {
+  ArmPose arm;
+  const double azimuth = rng.uniform(-35.0, 120.0);
+  const double elevation = std::asin(rng.uniform(-1.0, 0.95)) * 180.0 / kPi;
+  arm.upper = heading(azimuth, elevation);
+  const double bend = radians(rng.uniform(0.0, 145.0));
+  // The forearm folds forward and up, turned by the upper arm's roll.
+  const Vector3d side =
+      (heading(azimuth, elevation + 90.0) + 0.8 * rng.normal() * Vector3d(-1.0, 0.0, 0.3))
+          .normalized();
+  const Vector3d across = (side - arm.upper * arm.upper.dot(side)).normalized();
+  arm.fore = std::cos(bend) * arm.upper + std::sin(bend) * across;
+  arm.hand = static_cast<HandShape>(rng.pick(2));
+  arm.hand_roll_rad = rng.normal(0.0, 0.6);
+  return arm;
+}
+
+ArmPose draw_arm(Rng& rng, const BodyShape& body, const std::string& name) {
+  if (name == "wave") return bent(rng, {0.85, -0.35, 0.35}, {0.25, 1.0, 0.2}, HandShape::kOpen);
+  if (name == "raise")
+    return stretched(rng, body, heading(rng.uniform(20, 90), rng.uniform(55, 80)),
+                     rng.uniform(5, 40), HandShape::kOpen);
+  if (name == "T")
+    return stretched(rng, body, heading(90 + rng.normal(0, 8), rng.normal(0, 7)), rng.uniform(0, 8),
+                     HandShape::kOpen);
+  if (name == "reachF")
+    return stretched(rng, body, heading(rng.uniform(-10, 40), rng.uniform(-25, 15)),
+                     rng.uniform(5, 50), HandShape::kOpen);
+  if (name == "reachU")
+    return stretched(rng, body, heading(rng.uniform(-10, 50), rng.uniform(25, 60)),
+                     rng.uniform(5, 45), HandShape::kOpen);
+  if (name == "any") return any_arm(rng);
+  return habitual(rng, body, name);
+}
+
+/// Draws an arm until it goes through nothing; after 30 draws the best so far.
+void set_arm(Rng& rng, const BodyShape& body, const std::string& name, Side side,
+             Posture& posture) {
+  constexpr double kEnough =
+      0.012;  // the middle of a wrist lies 2.5 cm under its skin; flesh gives way
+  double best = -1.0;
+  ArmPose best_arm;
+  for (int attempt = 0; attempt < 30 && best < kEnough; ++attempt) {
+    posture.arms[static_cast<int>(side)] = draw_arm(rng, body, name);
+    const double clearance = arm_clearance_m(body, posture, side);
+    if (clearance <= best) continue;
+    best = clearance;
+    best_arm = posture.arms[static_cast<int>(side)];
+  }
+  if (best < 0.0 && name != "hang") return set_arm(rng, body, "hang", side, posture);
+  posture.arms[static_cast<int>(side)] = best_arm;
+}
+
+void stand(Rng& rng, Posture& posture) {
+  const double apart = rng.uniform(0.0, 0.10);
+  for (LegPose& leg : posture.legs) {
+    leg.thigh = {apart + rng.normal(0.0, 0.03), -1.0, rng.normal(0.0, 0.05)};
+    leg.shank = {apart + rng.normal(0.0, 0.02), -1.0, leg.thigh.z() - 0.12 + rng.normal(0.0, 0.04)};
+    leg.foot_yaw_rad = rng.normal(0.2, 0.12);
+  }
+  if (rng.chance(0.3)) {  // the weight on one leg, the other one loose
+    LegPose& loose = posture.legs[rng.pick(2)];
+    loose.thigh.z() += 0.25;
+    loose.shank.z() -= 0.15;
+  }
+}
+
+void sit(Rng& rng, Posture& posture) {
+  posture.seated = true;
+  const double spread = rng.uniform(0.02, 0.35);
+  const double slope = rng.normal(-0.05, 0.10);
+  for (LegPose& leg : posture.legs) {
+    leg.thigh = {spread + rng.normal(0.0, 0.05), slope, 1.0};
+    leg.shank = {rng.normal(0.0, 0.06), -1.0, rng.normal(0.0, 0.18)};
+    leg.foot_yaw_rad = rng.normal(0.15, 0.12);
+  }
+  posture.lean_rad = rng.normal(-0.05, 0.15);
+}
+
+void move_trunk(Rng& rng, Posture& posture) {
+  posture.lean_rad += rng.normal(0.02, 0.06);
+  posture.side_lean_rad = rng.normal(0.0, 0.04);
+  posture.twist_rad = rng.normal(0.0, 0.10);
+  posture.head_yaw_rad = std::clamp(rng.normal(0.0, 0.35), -1.1, 1.1);
+  posture.head_pitch_rad = std::clamp(rng.normal(0.05, 0.20), -0.6, 0.7);
+  posture.head_roll_rad = rng.normal(0.0, 0.08);
+}
+
+struct Habit {
+  std::string name, left, right;  ///< what the arms do; left and right swap at random
+  double weight;
+};
+
+const std::vector<Habit>& habits() {
+  static const std::vector<Habit> list = {
+      {"hang", "hang", "hang", 10},
+      {"akimbo", "akimbo", "akimbo", 6},
+      {"akimbo1", "akimbo", "hang", 4},
+      {"phone", "phone", "hang", 7},
+      {"folded", "folded", "folded", 6},
+      {"carry", "carry", "carry", 7},
+      {"wave", "wave", "hang", 7},
+      {"raise1", "raise", "hang", 5},
+      {"raise2", "raise", "raise", 4},
+      {"reachF", "reachF", "hang", 5},
+      {"reachU", "reachU", "hang", 5},
+      {"T", "T", "T", 4},
+      {"halfT", "T", "hang", 3},
+      {"behindhead", "behindhead", "behindhead", 4},
+      {"clap", "clap", "clap", 4},
+      {"back", "back", "back", 4},
+      {"pocket", "pocket", "pocket", 4},
+      {"drink", "drink", "hang", 4},
+      {"chin", "chin", "folded", 3},
+      {"texting", "texting", "texting", 4},
+      {"gesture", "gesture", "gesture", 6},
+      {"any", "any", "any", 12},
+  };
+  return list;
+}
+
+}  // namespace
+
+const std::vector<std::string>& natural_posture_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Habit& habit : habits()) result.push_back(habit.name);
+    for (const char* name : {"walk", "sit", "squat", "lean"}) result.emplace_back(name);
+    return result;
+  }();
+  return names;
+}
+
+double arm_clearance_m(const BodyShape& body, const Posture& posture, Side side) {
+  const Skeleton skeleton = make_skeleton(body, posture, {});
+  const Surface surface = make_body_surface(body, posture, skeleton, 1);
+  const int s = static_cast<int>(side);
+  const Vector3d& elbow = skeleton[on_side(Joint::kElbowLeft, side)];
+  const Vector3d& wrist = skeleton[on_side(Joint::kWristLeft, side)];
+  double clearance = 1.0;
+  for (const Vector3d& point :
+       {elbow, Vector3d(0.7 * elbow + 0.3 * wrist), Vector3d(0.4 * elbow + 0.6 * wrist), wrist,
+        skeleton.hand[s], Vector3d(0.4 * skeleton.hand[s] + 0.6 * skeleton.fingertip[s])}) {
+    for (const Primitive& primitive : surface.primitives) {
+      const bool own = primitive.part == on_side(Part::kUpperArmLeft, s) ||
+                       primitive.part == on_side(Part::kForearmLeft, s) ||
+                       primitive.part == on_side(Part::kHandLeft, s);
+      if (!own) clearance = std::min<double>(clearance, primitive.distance_m(point.cast<float>()));
+    }
+  }
+  return clearance;
+}
+
+Posture walking(const BodyShape& body, double phase_rad) {
+  Posture posture;
+  posture.name = "walk";
+  posture.lean_rad = 0.05;
+  for (int side = 0; side < 2; ++side) {
+    const double phase = phase_rad + (side == 0 ? 0.0 : kPi);
+    const double swing = radians(24.0) * std::sin(phase);
+    // The knee bends most while the leg comes forward.
+    const double knee =
+        radians(8.0) + radians(48.0) * std::pow(std::max(0.0, std::cos(phase - 0.4)), 2);
+    LegPose& leg = posture.legs[side];
+    leg.thigh = {0.03, -std::cos(swing), std::sin(swing)};
+    leg.shank = {0.02, -std::cos(swing - knee), std::sin(swing - knee)};
+    leg.foot_pitch_rad = std::max(0.0, 0.6 * (knee - swing) - 0.15);
+    const double arm = -0.8 * swing;
+    posture.arms[side].upper = {0.16, -std::cos(arm), std::sin(arm)};
+    posture.arms[side].fore = {0.08, -std::cos(arm + 0.35), std::sin(arm + 0.35)};
+    posture.arms[side].upper.x() += 1.5 * body.clothes.torso_m;
+  }
+  posture.twist_rad = -0.10 * std::sin(phase_rad);
+  return posture;
+}
+
+Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
+  Posture posture;
+  if (name == "walk") {
+    posture = walking(body, rng.uniform(0.0, 2.0 * kPi));
+    move_trunk(rng, posture);
+    return posture;
+  }
+  std::string arms[2] = {"hang", "hang"};
+  if (name == "sit") {
+    sit(rng, posture);
+    static const char* const kBusy[] = {"lap",     "lap",     "lap",  "folded", "phone",
+                                        "gesture", "texting", "wave", "reachF"};
+    for (std::string& arm : arms) arm = kBusy[rng.pick(9)];
+  } else {
+    stand(rng, posture);
+    for (const Habit& habit : habits()) {
+      if (habit.name != name) continue;
+      arms[0] = habit.left;
+      arms[1] = habit.right;
+      if (rng.chance(0.5)) std::swap(arms[0], arms[1]);
+    }
+  }
+  if (name == "squat") {
+    for (LegPose& leg : posture.legs) {
+      leg.thigh = {rng.uniform(0.1, 0.5), -0.3, 1.0};
+      leg.shank = {0.0, -1.0, -0.6};
+    }
+    posture.lean_rad = 0.5;
+    arms[0] = arms[1] = "gesture";
+  } else if (name == "lean") {
+    posture.lean_rad = rng.uniform(0.3, 0.9);
+    arms[0] = arms[1] = "reachF";
+  }
+  posture.name = name;
+  move_trunk(rng, posture);
+  set_arm(rng, body, arms[0], Side::kLeft, posture);
+  set_arm(rng, body, arms[1], Side::kRight, posture);
+  return posture;
+}
+
+Posture draw_natural(Rng& rng, const BodyShape& body) {
+  static const double total = [] {
+    double sum = 12 + 16 + 2 + 4;  // walk, sit, squat, lean
+    for (const Habit& habit : habits()) sum += habit.weight;
+    return sum;
+  }();
+  double draw = rng.uniform(0.0, total);
+  for (const Habit& habit : habits()) {
+    draw -= habit.weight;
+    if (draw < 0.0) return draw_posture(rng, body, habit.name);
+  }
+  return draw_posture(rng, body,
+                      draw < 12   ? "walk"
+                      : draw < 28 ? "sit"
+                      : draw < 30 ? "squat"
+                                  : "lean");
+}
+
+Posture draw_pointing(Rng& rng, const BodyShape& body, const PointingParams& params) {
+  Posture posture;
+  if (rng.chance(params.seated_share)) {
+    sit(rng, posture);
+  } else {
+    stand(rng, posture);
+  }
+  move_trunk(rng, posture);
+  posture.name = "pointing";
+  const auto side = static_cast<Side>(rng.pick(2));
+  posture.pointing_side = static_cast<int>(side);
+  static const char* const kOther[] = {"hang",   "hang",  "hang",    "akimbo", "pocket",
+                                       "folded", "phone", "gesture", "back"};
+  const char* other = kOther[rng.pick(9)];
+  set_arm(rng, body, posture.seated ? "lap" : other,
+          side == Side::kLeft ? Side::kRight : Side::kLeft, posture);
+
+  double best = -1.0;
+  Posture best_posture = posture;
+  for (int attempt = 0; attempt < 30 && best < 0.02; ++attempt) {
+    const double azimuth = rng.uniform(-params.max_inward_deg, params.max_outward_deg);
+    const double elevation = rng.uniform(params.min_elevation_deg, params.max_elevation_deg);
+    const double bend = rng.uniform(0.0, params.max_bend_deg);
+    const HandShape hand = rng.chance(0.8) ? HandShape::kPointing : HandShape::kOpen;
+    posture.arms[static_cast<int>(side)] =
+        stretched(rng, body, heading(azimuth, elevation), bend, hand);
+    if (rng.chance(0.6)) {  // most people look where they point
+      posture.head_yaw_rad =
+          radians(std::clamp(0.75 * (side == Side::kLeft ? azimuth : -azimuth), -65.0, 65.0));
+      posture.head_pitch_rad = radians(-0.5 * elevation);
+    }
+    const double clearance = arm_clearance_m(body, posture, side);
+    if (clearance <= best) continue;
+    best = clearance;
+    best_posture = posture;
+  }
+  return best_posture;
+}
+
+}  // namespace limbcast::simulate

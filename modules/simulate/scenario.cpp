@@ -1,0 +1,226 @@
+#include "modules/simulate/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "modules/simulate/body_surface.hpp"
+
+namespace limbcast::simulate {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979;
+double radians(double degrees) { return degrees * kPi / 180.0; }
+
+const char* name_of(SetKind set) {
+  switch (set) {
+    case SetKind::kPointing:
+      return "pointing";
+    case SetKind::kGeneral:
+      return "general";
+    case SetKind::kMulti:
+      return "multi";
+    case SetKind::kNoHuman:
+      return "nohuman";
+    case SetKind::kSequence:
+      return "sequence";
+  }
+  return "";
+}
+
+struct View {
+  double height_m, pitch_down_rad, roll_rad;
+  /// World: x left, y up, z forward; sensor: x right, y down, z forward.
+  Isometry3d sensor_from_world() const {
+    Isometry3d level = Isometry3d::Identity();
+    level.linear() = Vector3d(-1, -1, 1).asDiagonal();
+    Isometry3d result = Isometry3d::Identity();
+    result.linear() = (Eigen::AngleAxisd(roll_rad, Vector3d::UnitZ()) *
+                       Eigen::AngleAxisd(pitch_down_rad, Vector3d::UnitX()))
+                          .toRotationMatrix();
+    return result * level * Eigen::Translation3d(0, -height_m, 0);
+  }
+};
+
+View draw_view(Rng& rng, const ScenarioParams& params) {
+  return {rng.uniform(params.min_camera_height_m, params.max_camera_height_m),
+          radians(rng.normal(0.0, params.pitch_sigma_deg)),
+          radians(rng.normal(0.0, params.roll_sigma_deg))};
+}
+
+int draw_count(Rng& rng, const ScenarioParams& params) {
+  if (params.max_persons > 0)
+    return params.min_persons + rng.pick(params.max_persons - params.min_persons + 1);
+  if (params.set == SetKind::kNoHuman) return 0;
+  return params.set == SetKind::kMulti ? 2 + rng.pick(4) : 1;
+}
+
+/// Most people face the camera; some stand in any direction.
+double draw_yaw(Rng& rng) {
+  return rng.chance(0.6) ? radians(rng.normal(0.0, 40.0)) : rng.uniform(-kPi, kPi);
+}
+
+bool in_view(const PinholeCamera& camera, const Isometry3d& sensor_from_world,
+             const Vector3d& point, double margin_px) {
+  const Vector3d p = sensor_from_world * point;
+  if (p.z() < 0.3) return false;
+  const Eigen::Vector2f pixel = camera.project(p.cast<float>());
+  return pixel.x() > margin_px && pixel.x() < camera.width - margin_px && pixel.y() > margin_px &&
+         pixel.y() < camera.height - margin_px;
+}
+
+/// A place in view where nobody stands yet; false where none was found.
+bool find_place(Rng& rng, const ScenarioParams& params, const PinholeCamera& camera,
+                const Isometry3d& sensor_from_world, const std::vector<Person>& others,
+                Person& person) {
+  const bool may_be_cut = rng.chance(params.cut_share);
+  for (int attempt = 0; attempt < 60; ++attempt) {
+    person.place.z_m = rng.uniform(params.min_distance_m, params.max_distance_m);
+    const double half_width = 0.5 * camera.width / camera.fx;
+    person.place.x_m = rng.uniform(-1.0, 1.0) * half_width * person.place.z_m;
+    const double apart = 0.30 * person.body.stature_m;  // shoulder to shoulder: some touch
+    const bool free = std::none_of(others.begin(), others.end(), [&](const Person& other) {
+      return std::hypot(other.place.x_m - person.place.x_m, other.place.z_m - person.place.z_m) <
+             apart;
+    });
+    if (!free) continue;
+    const Skeleton world = make_skeleton(person.body, person.posture, person.place);
+    const double margin = may_be_cut ? 4.0 : 12.0;
+    const bool head = in_view(camera, sensor_from_world, world[Joint::kHead], margin) &&
+                      (may_be_cut || in_view(camera, sensor_from_world, world.head_top, margin));
+    if (!head) continue;
+    if (!may_be_cut && !(in_view(camera, sensor_from_world, world.fingertip[0], 4.0) &&
+                         in_view(camera, sensor_from_world, world.fingertip[1], 4.0))) {
+      continue;
+    }
+    person.skeleton = world;
+    return true;
+  }
+  return false;
+}
+
+std::vector<Person> draw_people(Rng& rng, const ScenarioParams& params, const PinholeCamera& camera,
+                                const Isometry3d& sensor_from_world) {
+  std::vector<Person> persons;
+  const int count = draw_count(rng, params);
+  for (int i = 0; i < count; ++i) {
+    Rng own = rng.derive(static_cast<std::uint64_t>(i));
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      Person person;
+      person.body = draw_body(own, params.body);
+      const bool points =
+          params.set == SetKind::kPointing || (params.set == SetKind::kMulti && own.chance(0.35));
+      person.posture = points ? draw_pointing(own, person.body, params.pointing)
+                              : draw_natural(own, person.body);
+      person.place.yaw_rad = draw_yaw(own);
+      if (!find_place(own, params, camera, sensor_from_world, persons, person)) continue;
+      persons.push_back(person);
+      break;
+    }
+  }
+  return persons;
+}
+
+/// The moment `seconds` of somebody who walks through the view, stops and points.
+Person sequence_person(Rng rng, const ScenarioParams& params, double seconds) {
+  constexpr double kWalk = 3.0;  // [s]
+  constexpr double kRaise = 0.7;
+  Person person;
+  person.body = draw_body(rng, params.body);
+  Rng pointing_rng = rng.derive(1);
+  const Posture end = draw_pointing(pointing_rng, person.body, params.pointing);
+  const double speed = 0.45 * person.body.stature_m;  // [m/s]
+  const double yaw = radians(rng.uniform(-60, 60));
+  const double walked = speed * std::min(seconds, kWalk);
+  person.place = {-0.3 + std::sin(yaw) * (walked - 0.6 * speed * kWalk) * -1.0,
+                  3.2 - std::cos(yaw) * (walked - 0.5 * speed * kWalk), yaw};
+  const double step_m = 0.41 * person.body.stature_m;
+  const Posture walk = walking(person.body, kPi * walked / step_m);
+  const double share = std::clamp((seconds - kWalk) / kRaise, 0.0, 1.0);
+  const double smooth = share * share * (3.0 - 2.0 * share);
+  person.posture = share < 1.0 ? walk : end;
+  const auto blend = [smooth](const Vector3d& a, const Vector3d& b) {
+    return Vector3d(((1.0 - smooth) * a.normalized() + smooth * b.normalized()).normalized());
+  };
+  for (int side = 0; side < 2; ++side) {
+    person.posture.arms[side].upper = blend(walk.arms[side].upper, end.arms[side].upper);
+    person.posture.arms[side].fore = blend(walk.arms[side].fore, end.arms[side].fore);
+    person.posture.legs[side].thigh = blend(walk.legs[side].thigh, end.legs[side].thigh);
+    person.posture.legs[side].shank = blend(walk.legs[side].shank, end.legs[side].shank);
+  }
+  person.skeleton = make_skeleton(person.body, person.posture, person.place);
+  return person;
+}
+
+void furnish(SceneBuilder& scene, Rng& rng, const ScenarioParams& params,
+             const std::vector<Person>& persons) {
+  std::vector<Circle> keep_free = {{0.0, 0.0, 1.2}};
+  for (const Person& person : persons) {
+    keep_free.push_back({person.place.x_m, person.place.z_m, person.posture.seated ? 0.9 : 0.6});
+    // Nothing stands at random before a person: occluders are drawn on purpose.
+    keep_free.push_back({0.7 * person.place.x_m, 0.7 * person.place.z_m, 0.5});
+  }
+  scene.room();
+  scene.furniture(2 + rng.pick(6), keep_free);
+  const bool empty = params.set == SetKind::kNoHuman;
+  scene.lookalikes(empty ? 2 + rng.pick(5) : rng.pick(3) / 2, keep_free);
+  for (const Person& person : persons) {
+    if (person.posture.seated) scene.seat(person.body, person.skeleton);
+    if (person.posture.name == "carry") scene.carried(person.skeleton);
+  }
+  if (!persons.empty() && params.set != SetKind::kSequence && rng.chance(params.occluder_share)) {
+    scene.occluder(persons[rng.pick(static_cast<int>(persons.size()))].place);
+  }
+}
+
+}  // namespace
+
+Scenario draw_scenario(const ScenarioParams& params, const PinholeCamera& camera,
+                       std::uint64_t seed, int index) {
+  const bool moving = params.set == SetKind::kSequence;
+  const Rng base = Rng(seed).derive(static_cast<std::uint64_t>(params.set) + 1);
+  Rng rng = moving ? base : base.derive(static_cast<std::uint64_t>(index));
+  const View view = draw_view(rng, params);
+  const Isometry3d sensor_from_world = view.sensor_from_world();
+
+  Scenario scenario;
+  char name[64];
+  std::snprintf(name, sizeof(name), "%s_%04d", name_of(params.set), index);
+  scenario.name = name;
+  const double seconds = index / params.frame_rate_hz;
+  // A day of its own for each seed, so that frames of different sets never share a time.
+  scenario.utime = 1'780'000'000'000'000 +
+                   static_cast<std::int64_t>(seed % 10000) * 86'400'000'000 +
+                   std::llround(seconds * 1e6);
+  scenario.persons = moving ? std::vector<Person>{sequence_person(rng.derive(7), params, seconds)}
+                            : draw_people(rng, params, camera, sensor_from_world);
+
+  SceneBuilder scene(rng.derive(8));
+  Rng furniture = rng.derive(9);
+  furnish(scene, furniture, params, scenario.persons);
+  scenario.world = std::move(scene.world());
+  for (Solid& solid : scenario.world.solids) {
+    solid.frame_from_solid = sensor_from_world.cast<float>() * solid.frame_from_solid;
+  }
+  for (Surface& surface : scenario.world.surfaces)
+    surface = surface.transformed(sensor_from_world.cast<float>());
+  int mask_index = 0;
+  for (Person& person : scenario.persons) {
+    person.skeleton = transformed(person.skeleton, sensor_from_world);
+    person.surface = static_cast<int>(scenario.world.surfaces.size());
+    scenario.world.surfaces.push_back(
+        make_body_surface(person.body, person.posture, person.skeleton, ++mask_index));
+  }
+  scenario.down = sensor_from_world.linear() * Vector3d(0, -1, 0);
+  scenario.sensor_height_m = view.height_m;
+  scenario.pitch_down_deg = view.pitch_down_rad * 180.0 / kPi;
+  Rng sky = rng.derive(10);
+  const Vector3d light(sky.normal(0.0, 0.7), 1.0, -0.6 + sky.normal(0.0, 0.5));
+  scenario.light = (sensor_from_world.linear() * light.normalized()).cast<float>();
+  return scenario;
+}
+
+}  // namespace limbcast::simulate

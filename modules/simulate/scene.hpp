@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "modules/simulate/body.hpp"
+#include "modules/simulate/raycast.hpp"
+#include "modules/simulate/skeleton.hpp"
+
+namespace limbcast::simulate {
+
+/// A circle on the floor, seen from above [m].
+struct Circle {
+  double x_m = 0.0, z_m = 0.0, radius_m = 0.5;
+};
+
+/// Puts a scene together in the world's frame: x to the camera's left, y up, z away from the
+/// camera, the ground at y = 0. Colours of wood, leather and walls are often near those of skin:
+/// that is on purpose.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(Rng rng) : rng_(rng) {}
+
+  /// Floor and, mostly, walls and ceiling; else a yard with a house and trees far away.
+  void room();
+  /// `count` pieces of furniture that leave the circles free.
+  void furniture(int count, const std::vector<Circle>& keep_free);
+  /// Something between the camera and `place` that hides a part of what stands there.
+  void occluder(const Place& place);
+  /// The chair, stool or sofa on which this person sits.
+  void seat(const BodyShape& body, const Skeleton& skeleton);
+  /// The box or tray that both hands hold.
+  void carried(const Skeleton& skeleton);
+  /// Things that look like heads, shoulders or arms: balls on pillars, coats on stands, figures of
+  /// boxes.
+  void lookalikes(int count, const std::vector<Circle>& keep_free);
+
+  World& world() { return world_; }
+
+ private:
+  Solid& box(const Eigen::Vector3d& center, const Eigen::Vector3d& size, double yaw_rad,
+             const Material& material);
+  Solid& round(Solid::Kind kind, const Eigen::Vector3d& center, const Eigen::Vector3d& half,
+               const Material& material);
+  Material some_material();
+  Material wood();
+  Material even(Bgr color, float grain);
+  bool find_place(const std::vector<Circle>& keep_free, double radius_m, double& x_m, double& z_m);
+
+  void table(double x, double z);
+  void chair(double x, double z, double yaw_rad, double seat_height_m, double width_m);
+  void sofa(double x, double z, double yaw_rad, double seat_height_m);
+  void shelf(double x, double z);
+  void plant(double x, double z);
+  void lamp(double x, double z);
+  void boxes(double x, double z);
+  void ball_on_pillar(double x, double z);
+  void coat_stand(double x, double z);
+  void box_figure(double x, double z);
+
+  Rng rng_;
+  World world_;
+};
+
+}  // namespace limbcast::simulate

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/simulate/body_surface.hpp"
+#include "modules/simulate/postures.hpp"
+
+namespace limbcast::simulate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRadian = 3.14159265358979 / 180.0;
+
+double distance(const Skeleton& skeleton, Joint a, Joint b) {
+  return (skeleton[a] - skeleton[b]).norm();
+}
+
+TEST(Body, IsTheSameForTheSameSeed) {
+  Rng first(7);
+  Rng second(7);
+
+  EXPECT_EQ(draw_body(first).stature_m, draw_body(second).stature_m);
+}
+
+TEST(Body, StandsAsTallAsItsStature) {
+  for (int seed = 0; seed < 30; ++seed) {
+    Rng rng(seed);
+    const BodyShape body = draw_body(rng);
+    const Skeleton skeleton = make_skeleton(body, Posture{}, {});
+
+    // The neck leans forward and the knees are not quite straight: up to 2 % is lost.
+    EXPECT_NEAR(skeleton.head_top.y() / body.stature_m, 0.99, 0.02) << seed;
+  }
+}
+
+TEST(Body, HasTheRatiosOfTheRenderedBodies) {
+  double upper_arm = 0.0;
+  double forearm = 0.0;
+  double shoulders = 0.0;
+  constexpr int kBodies = 200;
+  BodyParams adults;
+  adults.child_share = 0.0;
+  for (int seed = 0; seed < kBodies; ++seed) {
+    Rng rng(seed);
+    const BodyShape body = draw_body(rng, adults);
+    upper_arm += body.upper_arm_m / body.stature_m / kBodies;
+    forearm += body.forearm_m / body.stature_m / kBodies;
+    shoulders += body.shoulder_half_m / body.stature_m / kBodies;
+  }
+  // Bodies D1-D3 of data/stereo_dev: 0.147, 0.132 to 0.156, 0.096 to 0.105.
+  EXPECT_NEAR(upper_arm, 0.150, 0.005);
+  EXPECT_NEAR(forearm, 0.146, 0.006);
+  EXPECT_NEAR(shoulders, 0.101, 0.004);
+}
+
+TEST(Body, ChildrenHaveLargeHeadsAndShortLegs) {
+  BodyParams children;
+  children.child_share = 1.0;
+  BodyParams adults;
+  adults.child_share = 0.0;
+  Rng rng(1);
+  Rng other(1);
+  BodyShape child = draw_body(rng, children);
+  while (child.stature_m > 1.15) child = draw_body(rng, children);
+  const BodyShape adult = draw_body(other, adults);
+
+  EXPECT_GT(child.head_scale, 1.15 * adult.head_scale);
+  EXPECT_LT((child.thigh_m + child.shank_m) / child.stature_m,
+            0.97 * (adult.thigh_m + adult.shank_m) / adult.stature_m);
+}
+
+TEST(Skeleton, KeepsTheBoneLengthsInEveryPosture) {
+  Rng rng(3);
+  const BodyShape body = draw_body(rng);
+  for (const std::string& name : natural_posture_names()) {
+    const Skeleton skeleton = make_skeleton(body, draw_posture(rng, body, name), {});
+
+    EXPECT_NEAR(distance(skeleton, Joint::kShoulderLeft, Joint::kElbowLeft), body.upper_arm_m, 1e-9)
+        << name;
+    EXPECT_NEAR(distance(skeleton, Joint::kElbowRight, Joint::kWristRight), body.forearm_m, 1e-9)
+        << name;
+    EXPECT_NEAR(distance(skeleton, Joint::kHipLeft, Joint::kKneeLeft), body.thigh_m, 1e-9) << name;
+    EXPECT_NEAR(distance(skeleton, Joint::kKneeRight, Joint::kAnkleRight), body.shank_m, 1e-9)
+        << name;
+  }
+}
+
+TEST(Skeleton, StandsOnTheGround) {
+  Rng rng(4);
+  const BodyShape body = draw_body(rng);
+  for (const std::string& name : natural_posture_names()) {
+    const Skeleton skeleton = make_skeleton(body, draw_posture(rng, body, name), {});
+    const double lower =
+        std::min(skeleton[Joint::kAnkleLeft].y(), skeleton[Joint::kAnkleRight].y());
+
+    EXPECT_GT(lower, 0.5 * body.ankle_height_m) << name;
+    EXPECT_LT(lower, 1.0 * body.ankle_height_m + 0.3 * body.foot_m) << name;
+  }
+}
+
+TEST(Skeleton, HasItsLeftHandOnTheImagesRightWhenItFacesTheCamera) {
+  Rng rng(5);
+  const BodyShape body = draw_body(rng);
+
+  const Skeleton skeleton = make_skeleton(body, Posture{}, {});
+
+  // The world's x points to the image's left.
+  EXPECT_LT(skeleton[Joint::kWristLeft].x(), skeleton[Joint::kWristRight].x());
+  EXPECT_LT(skeleton.eye.z(), skeleton[Joint::kHead].z());
+}
+
+TEST(Reach, PutsTheWristWhereItIsAsked) {
+  Rng rng(6);
+  const BodyShape body = draw_body(rng);
+  const Vector3d wrist = body.stature_m * Vector3d(0.08, -0.15, 0.20);
+
+  const ArmPose arm = reach(body, wrist, {0.5, -1, 0});
+
+  const Vector3d reached =
+      shoulder_offset_m(body, arm.upper) + body.upper_arm_m * arm.upper + body.forearm_m * arm.fore;
+  EXPECT_NEAR((reached - wrist).norm(), 0.0, 0.002);
+}
+
+TEST(Postures, NoArmGoesThroughTheBody) {
+  int inside = 0;
+  int arms = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    Rng rng(seed);
+    const BodyShape body = draw_body(rng);
+    const Posture posture = draw_natural(rng, body);
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      ++arms;
+      if (arm_clearance_m(body, posture, side) < -0.01) ++inside;
+    }
+  }
+  EXPECT_LE(inside, arms / 50);
+}
+
+TEST(Postures, PointingArmsAreNearlyStraightAndWithinTheirRange) {
+  PointingParams params;
+  for (int seed = 0; seed < 40; ++seed) {
+    Rng rng(seed);
+    const BodyShape body = draw_body(rng);
+    const Posture posture = draw_pointing(rng, body, params);
+    const auto side = static_cast<Side>(posture.pointing_side);
+    const Skeleton skeleton = make_skeleton(body, posture, {});
+
+    EXPECT_LE(elbow_bend_rad(skeleton, side), (params.max_bend_deg + 2.0) * kRadian);
+    const double elevation =
+        std::asin((skeleton.chest_R.transpose() * arm_axis(skeleton, side)).y());
+    EXPECT_GE(elevation, (params.min_elevation_deg - 2.0) * kRadian);
+    EXPECT_LE(elevation, (params.max_elevation_deg + 2.0) * kRadian);
+  }
+}
+
+TEST(BodySurface, HoldsEveryJoint) {
+  for (int seed = 0; seed < 40; ++seed) {
+    Rng rng(seed);
+    const BodyShape body = draw_body(rng);
+    const Posture posture = draw_natural(rng, body);
+    const Skeleton skeleton = make_skeleton(body, posture, {});
+    const Surface surface = make_body_surface(body, posture, skeleton, 1);
+    for (int j = 0; j < kJointCount; ++j) {
+      EXPECT_LT(surface.distance_m(skeleton.joints[j].cast<float>()), -0.004F)
+          << kJointNames[j] << " of " << seed;
+    }
+  }
+}
+
+TEST(BodySurface, IsTheSameOnBothSidesOfASymmetricPosture) {
+  Rng rng(9);
+  BodyShape body = draw_body(rng);
+  body.clothes.wrinkle_m = 0.0;  // folds differ from side to side
+  const Skeleton skeleton = make_skeleton(body, Posture{}, {0.0, 0.0, 0.0});
+  const Surface surface = make_body_surface(body, Posture{}, skeleton, 1);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3f point(static_cast<float>(rng.uniform(0.0, 0.5)),
+                                static_cast<float>(rng.uniform(0.0, 1.8)),
+                                static_cast<float>(rng.uniform(-0.3, 0.3)));
+    const Eigen::Vector3f mirrored(-point.x(), point.y(), point.z());
+    EXPECT_NEAR(surface.distance_m(point), surface.distance_m(mirrored), 0.004F);
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::simulate

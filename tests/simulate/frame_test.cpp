@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <opencv2/core.hpp>
+
+#include "modules/simulate/body_surface.hpp"
+#include "modules/simulate/render.hpp"
+#include "modules/simulate/simulator.hpp"
+#include "modules/simulate/truth.hpp"
+
+namespace limbcast::simulate {
+namespace {
+
+SimulatorParams small_params(SetKind set, SensorKind sensor) {
+  SimulatorParams params;
+  params.camera = {160, 120, 130.0, 130.0, 79.5, 59.5};
+  params.scenario.set = set;
+  params.sensor = sensor;
+  return params;
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() &&
+         (a.empty() || cv::norm(a, b, cv::NORM_INF) == 0.0);
+}
+
+/// A person at 3 m, alone, arms along `arms` (outward, up, forward).
+Scenario lone_person(double yaw_rad, const Eigen::Vector3d& arms = Eigen::Vector3d::UnitX()) {
+  Scenario scenario;
+  Person person;
+  Rng rng(11);
+  person.body = draw_body(rng);
+  person.body.clothes.hair = Hair::kShort;
+  for (ArmPose& arm : person.posture.arms) arm.upper = arm.fore = arms;
+  person.place = {0.0, 3.0, yaw_rad};
+  Eigen::Isometry3d sensor_from_world = Eigen::Isometry3d::Identity();
+  sensor_from_world.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  sensor_from_world.translation().y() = 1.2;
+  person.skeleton =
+      transformed(make_skeleton(person.body, person.posture, person.place), sensor_from_world);
+  person.surface = 0;
+  scenario.world.surfaces.push_back(
+      make_body_surface(person.body, person.posture, person.skeleton, 1));
+  scenario.persons.push_back(person);
+  return scenario;
+}
+
+const PinholeCamera kWide{640, 480, 300.0, 300.0, 319.5, 239.5};
+
+TEST(SimulateFrame, IsTheSameOnAnyNumberOfThreads) {
+  for (const SensorKind sensor :
+       {SensorKind::kStereo, SensorKind::kDepth, SensorKind::kStereoDepth}) {
+    const SimulatorParams params = small_params(SetKind::kMulti, sensor);
+    const SimulatedFrame many = simulate_frame(params, 5, 3);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const SimulatedFrame single = simulate_frame(params, 5, 3);
+
+    EXPECT_TRUE(same(many.left, single.left));
+    EXPECT_TRUE(same(many.right, single.right));
+    EXPECT_TRUE(same(many.sensed_depth_m, single.sensed_depth_m));
+    EXPECT_TRUE(same(many.true_depth_m, single.true_depth_m));
+    EXPECT_TRUE(same(many.labels, single.labels));
+  }
+}
+
+TEST(SimulateFrame, DiffersWithSeedAndIndex) {
+  const SimulatorParams params = small_params(SetKind::kGeneral, SensorKind::kDepth);
+  const SimulatedFrame frame = simulate_frame(params, 1, 0);
+
+  EXPECT_FALSE(same(frame.true_depth_m, simulate_frame(params, 1, 1).true_depth_m));
+  EXPECT_FALSE(same(frame.true_depth_m, simulate_frame(params, 2, 0).true_depth_m));
+}
+
+TEST(SimulateFrame, ShowsAsManyPeopleAsTheSetHas) {
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(simulate_frame(small_params(SetKind::kNoHuman, SensorKind::kDepth), 1, i)
+                    .scenario.persons.empty());
+    EXPECT_EQ(simulate_frame(small_params(SetKind::kPointing, SensorKind::kDepth), 1, i)
+                  .scenario.persons.size(),
+              1U);
+    EXPECT_GE(simulate_frame(small_params(SetKind::kMulti, SensorKind::kDepth), 1, i)
+                  .scenario.persons.size(),
+              2U);
+  }
+}
+
+TEST(SimulateFrame, TheSameBodyWalksThroughASequence) {
+  const SimulatorParams params = small_params(SetKind::kSequence, SensorKind::kDepth);
+  const Scenario first = draw_scenario(params.scenario, params.camera, 3, 0);
+  const Scenario next = draw_scenario(params.scenario, params.camera, 3, 1);
+  const double moved =
+      (next.persons[0].skeleton[Joint::kPelvis] - first.persons[0].skeleton[Joint::kPelvis]).norm();
+
+  EXPECT_EQ(first.persons[0].body.stature_m, next.persons[0].body.stature_m);
+  EXPECT_GT(moved, 0.02);
+  EXPECT_LT(moved, 0.15);
+  EXPECT_EQ(next.utime - first.utime, 100000);
+}
+
+TEST(Visibility, ShowsAllJointsOfSomebodyWithRaisedArms) {
+  const Scenario scenario = lone_person(0.0);
+  const Visibility seen = visibility_of(scenario, scenario.persons[0], kWide);
+  for (int j = 0; j < kJointCount; ++j) EXPECT_TRUE(seen.joints[j]) << kJointNames[j];
+}
+
+TEST(Visibility, HidesTheFarArmOfSomebodySeenFromTheSide) {
+  const Scenario scenario =
+
+      lone_person(1.5708, {0.2, -1.0, 0.0});  // turned to the image's right: the own right is near
+  const Visibility seen = visibility_of(scenario, scenario.persons[0], kWide);
+
+  EXPECT_TRUE(seen.joints[index(Joint::kWristRight)]);
+  EXPECT_FALSE(seen.joints[index(Joint::kWristLeft)]);
+  EXPECT_FALSE(seen.joints[index(Joint::kElbowLeft)]);
+}
+
+TEST(Visibility, HidesEverythingBehindAWallAndOutsideTheImage) {
+  Scenario scenario = lone_person(0.0);
+  PinholeCamera narrow = kWide;
+  narrow.cx = -400.0;  // looks past the person
+  Visibility seen = visibility_of(scenario, scenario.persons[0], narrow);
+  for (int j = 0; j < kJointCount; ++j) EXPECT_FALSE(seen.joints[j]) << kJointNames[j];
+
+  Solid wall;
+  wall.half_m = {5, 5, 0.05F};
+  wall.frame_from_solid.translation() = Eigen::Vector3f(0, 0, 1);
+  scenario.world.solids.push_back(wall);
+  seen = visibility_of(scenario, scenario.persons[0], kWide);
+  for (int j = 0; j < kJointCount; ++j) EXPECT_FALSE(seen.joints[j]) << kJointNames[j];
+}
+
+TEST(Render, JointsLieBehindTheSkinAsInTheRenderedData) {
+  const Scenario scenario = lone_person(0.0);
+  const HitImage hits = look(scenario.world, kWide);
+  const cv::Mat depth = depth_image(hits, kWide);
+  const auto behind_skin_m = [&](Joint joint) {
+    const Eigen::Vector3f point = scenario.persons[0].skeleton[joint].cast<float>();
+    const Eigen::Vector2f pixel = kWide.project(point);
+    return point.z() - depth.at<float>(cvRound(pixel.y()), cvRound(pixel.x()));
+  };
+  // data/README.md: wrist 2-3 cm, elbow 4, shoulder and knee 6, head 9, chest 13; bodies differ by
+  // a third.
+  EXPECT_NEAR(behind_skin_m(Joint::kWristLeft), 0.027, 0.012);
+  EXPECT_NEAR(behind_skin_m(Joint::kElbowLeft), 0.040, 0.015);
+  EXPECT_NEAR(behind_skin_m(Joint::kShoulderRight), 0.060, 0.025);
+  EXPECT_NEAR(behind_skin_m(Joint::kKneeRight), 0.060, 0.020);
+  EXPECT_NEAR(behind_skin_m(Joint::kHead), 0.090, 0.025);
+  EXPECT_NEAR(behind_skin_m(Joint::kChest), 0.130, 0.040);
+}
+
+TEST(Render, ThePairIsShiftedByTheDisparity) {
+  SimulatorParams params;
+  params.scenario.set = SetKind::kPointing;
+  params.scenario.occluder_share = 0.0;
+  const SimulatedFrame frame = simulate_frame(params, 2, 0);
+  // At whole disparities the right image's column u - d shows what the left one's column u shows.
+  const double fb = params.camera.fx * params.baseline_m;
+  double difference = 0.0;
+  int count = 0;
+  for (int v = 40; v < 440; ++v) {
+    for (int u = 80; u < 600; ++u) {
+      const float z = frame.true_depth_m.at<float>(v, u);
+      if (frame.mask.at<std::uint8_t>(v, u) == 0 || z <= 0.0F) continue;
+      const double disparity = fb / z;
+      if (std::abs(disparity - std::round(disparity)) > 0.05) continue;
+      const auto left = frame.left.at<cv::Vec3b>(v, u);
+      const auto right = frame.right.at<cv::Vec3b>(v, u - static_cast<int>(std::lround(disparity)));
+      difference += std::abs(left[1] - right[1]);
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 200);
+  EXPECT_LT(difference / count, 8.0);  // noise of 2 grey levels in each, and the silhouette
+}
+
+}  // namespace
+}  // namespace limbcast::simulate
