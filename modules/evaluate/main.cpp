@@ -20,6 +20,7 @@ struct Options {
   std::string log, poses, truth, bodies, json, picture;
   std::string channel = "BODY_POSES", truth_channel = "GROUND_TRUTH";
   int worst = 0;
+  bool brief = false;
 };
 
 void declare(config::Section& section, Options& options) {
@@ -33,6 +34,7 @@ void declare(config::Section& section, Options& options) {
   section.add("picture", options.picture, "file to draw the distribution of the errors to (PNG)");
   section.add("channel", options.channel, "channel of the poses in the log");
   section.add("truth-channel", options.truth_channel, "channel of the truth in the log");
+  section.add("brief", options.brief, "print the main figures in one line instead of the table");
   section.add("worst", options.worst, "", "list so many of the worst findings", {0, 1000000});
 }
 
@@ -103,7 +105,9 @@ void run(int argc, const char* const* argv) {
     config::log(config::LogLevel::kWarning,
                 "no frame with truth was reported: do poses and truth belong together?");
   const Report report = make_report(tally);
-  std::fputs(report_text(report, tally, options.worst).c_str(), stdout);
+  const std::string text =
+      options.brief ? report_line(report, tally) : report_text(report, tally, options.worst);
+  std::fputs(text.c_str(), stdout);
   if (!options.json.empty()) write_file(options.json, report_json(report, tally));
   if (!options.picture.empty()) write_picture(options.picture, tally);
 }

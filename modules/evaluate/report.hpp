@@ -53,7 +53,9 @@ Report make_report(const Tally& tally);
 
 /// The table for people; `max_findings`: so many of the worst findings below it.
 std::string report_text(const Report& report, const Tally& tally, int max_findings);
-/// The same for programs, indented.
+/// The table for programs, indented.
 std::string report_json(const Report& report, const Tally& tally);
+/// The main figures in one line.
+std::string report_line(const Report& report, const Tally& tally);
 
 }  // namespace limbcast::evaluate

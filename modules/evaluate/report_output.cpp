@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "modules/evaluate/report.hpp"
 
@@ -9,6 +11,11 @@ namespace limbcast::evaluate {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// What the short line tells.
+const std::vector<std::string> kMainFigures = {
+    "pointing_right_percent",     "wrong_reported_percent", "pointing_median_deg",
+    "joints_within_10cm_percent", "joint_error_mean_cm",    "people_found_percent"};
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -146,6 +153,17 @@ std::string report_json(const Report& report, const Tally& tally) {
   json["findings"] = Json::array();
   for (const Finding& finding : tally.findings) json["findings"].push_back(finding_json(finding));
   return json.dump(1) + "\n";
+}
+
+std::string report_line(const Report& report, const Tally& tally) {
+  std::string line = formatted("accuracy on %d frames:", tally.frames);
+  for (const Figure& figure : report.figures) {
+    const bool is_main =
+        std::find(kMainFigures.begin(), kMainFigures.end(), figure.key) != kMainFigures.end();
+    if (is_main && figure.value) line += ' ' + figure.title + ' ' + value_text(figure) + ',';
+  }
+  line.back() = '\n';
+  return line;
 }
 
 }  // namespace limbcast::evaluate

@@ -8,6 +8,7 @@
 #include "common/lcm_io/module.hpp"
 #include "common/lcm_io/pose_log.hpp"
 #include "common/pose_json/pose_lines.hpp"
+#include "common/pose_json/pose_text.hpp"
 
 namespace limbcast::export_poses {
 namespace {
@@ -16,13 +17,14 @@ namespace {
 constexpr std::chrono::milliseconds kWait{50};
 
 struct Options {
-  std::string log, channel = "BODY_POSES";
+  std::string log, channel = "BODY_POSES", format = "json";
 };
 
 /// A reader that closes the pipe or a full disk must not pass for a complete file.
-void write_line(const BodyPoses& poses) {
-  const std::string line = pose_json::to_line(poses) + "\n";
-  if (std::fputs(line.c_str(), stdout) < 0) throw std::runtime_error("cannot write to stdout");
+void write_poses(const BodyPoses& poses, const Options& options) {
+  const std::string text =
+      options.format == "json" ? pose_json::to_line(poses) + "\n" : pose_json::to_text(poses);
+  if (std::fputs(text.c_str(), stdout) < 0) throw std::runtime_error("cannot write to stdout");
 }
 
 void flush_lines() {
@@ -30,7 +32,8 @@ void flush_lines() {
 }
 
 void export_log(const Options& options) {
-  const auto summary = lcm_io::visit_poses(options.log, options.channel, write_line);
+  const auto summary = lcm_io::visit_poses(
+      options.log, options.channel, [&](const BodyPoses& poses) { write_poses(poses, options); });
   flush_lines();
   lcm_io::warn_about(summary, options.log, options.channel);
   if (summary.messages == 0)
@@ -43,11 +46,14 @@ void export_live(const Options& options, const std::string& lcm_url) {
   bus.set_on_malformed([](const std::string& channel, const std::string& reason) {
     config::log(config::LogLevel::kWarning, channel + ": message dropped: " + reason);
   });
-  bus.subscribe<body_poses_t>(options.channel, lcm_io::Keep::kAll, [](const body_poses_t& message) {
-    write_line(lcm_io::from_message(message));
-    flush_lines();
-  });
+  bus.subscribe<body_poses_t>(options.channel, lcm_io::Keep::kAll,
+                              [&](const body_poses_t& message) {
+                                write_poses(lcm_io::from_message(message), options);
+                                flush_lines();
+                              });
   lcm_io::install_signal_handlers();
+  config::log(config::LogLevel::kInfo,
+              "writes " + options.channel + " of " + lcm_io::effective_url(lcm_url));
   while (!lcm_io::stop_requested()) bus.handle(kWait);
 }
 
@@ -55,8 +61,10 @@ void run(int argc, const char* const* argv) {
   Options options;
   config::Section section("export_poses");
   section.add("channel", options.channel, "poses to write: BODY_POSES or TRACKED_POSES");
+  section.add_choice("format", options.format, {"json", "text"},
+                     "a line of JSON for each frame, or a readable line for each person");
   config::Parser parser("limbcast-export-poses",
-                        "Writes poses as JSON, a line a frame, from a log or live.");
+                        "Writes poses from a log or live, a line a frame.");
   parser.add_positional("[LOG]", options.log, "log that holds poses; default: live until Ctrl-C");
   parser.add(section);
   if (!parser.parse(argc, argv)) return;

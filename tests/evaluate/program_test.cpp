@@ -57,6 +57,16 @@ TEST(EvaluateProgram, JudgesALogByTheTruthInIt) {
   EXPECT_GT(std::filesystem::file_size(folder / "a.png"), 1000U);
 }
 
+TEST(EvaluateProgram, TellsTheMainFiguresInOneLine) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  const Outcome outcome = evaluate_program({folder / "out.log", "--brief"});
+  EXPECT_THAT(
+      outcome.out,
+      StartsWith("accuracy on 2 frames: postures right [%] 50.0, wrong reported [%] 50.0,"));
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+}
+
 TEST(EvaluateProgram, JudgesExportedPosesByAFolder) {
   const TemporaryFolder folder;
   folder.write("truth/a_gt.json", R"({"utime":5,"persons":[{"body":"D4_x","joints":{"head":[0,0,2]},

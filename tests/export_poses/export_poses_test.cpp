@@ -70,6 +70,14 @@ TEST(ExportPoses, WritesAnotherChannelOnRequest) {
   EXPECT_EQ(frames[0].persons.size(), 2U);
 }
 
+TEST(ExportPoses, WritesReadableLinesOnRequest) {
+  const TemporaryFolder folder;
+  write_log(folder / "a.log");
+  const Outcome outcome = export_poses({folder / "a.log", "--format", "text"});
+  EXPECT_THAT(outcome.out, HasSubstr("person 0 at (0.50, -0.25, 2.00) m"));
+  EXPECT_THAT(outcome.out, HasSubstr("nobody"));
+}
+
 TEST(ExportPoses, WarnsOfALogWithoutPoses) {
   const TemporaryFolder folder;
   write_log(folder / "a.log");
