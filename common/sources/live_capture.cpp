@@ -118,7 +118,8 @@ LiveCapture::LiveCapture(OpenReader open, LiveCaptureParams params)
   if (came_back && !shared_->first_open_error) return;
   shared_->stopping = true;
   if (shared_->first_open_error) std::rethrow_exception(shared_->first_open_error);
-  throw InputError(shared_->params.name + ": did not open in time; is it sending?");
+  throw InputError(shared_->params.name +
+                   ": did not open in time; does it play in gst-launch-1.0 or ffplay?");
 }
 
 LiveCapture::~LiveCapture() {

@@ -13,11 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::chrono::milliseconds milliseconds_of(double seconds) {
+  return std::chrono::milliseconds(std::llround(1000.0 * seconds));
+}
+
 LiveCaptureParams capture_params(const SourceOptions& options, const std::string& name) {
   LiveCaptureParams params;
   params.name = name;
   params.reopen = options.reopen;
-  params.stall_timeout = std::chrono::milliseconds(std::llround(1000.0 * options.stall_timeout_s));
+  params.stall_timeout = milliseconds_of(options.stall_timeout_s);
+  params.open_timeout = milliseconds_of(options.open_timeout_s);
   return params;
 }
 

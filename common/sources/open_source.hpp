@@ -20,6 +20,7 @@ struct SourceOptions {
   CameraSettings camera;
   double pair_tolerance_ms =
       10.0;  ///< below half a frame at 30 frames/s, above any synchronised pair's
+  double open_timeout_s = 10.0;  ///< a network camera takes some seconds
   double stall_timeout_s = 2.0;
   bool reopen = true;
 };

@@ -137,6 +137,8 @@ void declare(config::Section& section, SourceProcessOptions& options,
               "fixed gain; nan = as the camera has it");
   section.add("pair-tolerance-ms", source.pair_tolerance_ms, "ms",
               "largest difference in time of the two images of two cameras", {0.0, 1000.0});
+  section.add("open-timeout-s", source.open_timeout_s, "s", "a camera must open within this time",
+              {0.1, 3600.0});
   section.add("stall-timeout-s", source.stall_timeout_s, "s",
               "without a frame for this long a camera counts as stalled", {0.1, 3600.0});
   section.add("reopen", source.reopen,

@@ -92,16 +92,17 @@ cv::VideoCapture open_device(const std::string& device, const CameraSettings& se
   return capture;
 }
 
-cv::VideoCapture open_pipeline(const std::string& pipeline) {
+cv::VideoCapture open_pipeline(const std::string& pipeline, bool raw_depth) {
   std::string whole = pipeline;
   if (pipeline.find("appsink") == std::string::npos) {
+    // A conversion would take depth for grey values and drop half of their bits.
+    if (!raw_depth) whole += " ! videoconvert ! video/x-raw,format=(string){BGR,GRAY8}";
     whole += " ! appsink max-buffers=2 drop=true sync=false";
   }
   cv::VideoCapture capture(whole, cv::CAP_GSTREAMER);
   if (!capture.isOpened()) {
     throw InputError("gst:" + pipeline +
-                     ": cannot be started; try it with gst-launch-1.0, and end it with" +
-                     " video/x-raw,format=BGR (or GRAY8, or GRAY16_LE for depth)");
+                     ": cannot be started; try it with gst-launch-1.0 and a sink");
   }
   return capture;
 }
@@ -136,7 +137,8 @@ std::unique_ptr<FrameReader> open_camera(const std::string& source,
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   if (is_device(source)) return std::make_unique<VideoReader>(open_device(source, settings));
   if (starts_with(source, kPipelinePrefix)) {
-    return std::make_unique<VideoReader>(open_pipeline(source.substr(kPipelinePrefix.size())));
+    return std::make_unique<VideoReader>(
+        open_pipeline(source.substr(kPipelinePrefix.size()), settings.raw_depth));
   }
   return std::make_unique<VideoReader>(open_stream(source));
 }

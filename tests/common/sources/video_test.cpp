@@ -1,0 +1,172 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "common/input_error.hpp"
+#include "common/sources/open_source.hpp"
+#include "common/sources/video_source.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/common/sources/test_pictures.hpp"
+
+namespace limbcast {
+namespace {
+
+using testing::depth_format;
+using testing::error_of;
+using testing::grey_picture;
+using ::testing::HasSubstr;
+using testing::level_of;
+using testing::stereo_format;
+using testing::TemporaryFolder;
+
+/// JPEG, twice, is not exact on flat pictures either.
+constexpr int kLevelTolerance = 3;
+
+/// Motion JPEG at 20 frames/s; picture i has level first_level + 20 * i.
+std::string write_video(const std::string& path, const cv::Size& size, int frames,
+                        int first_level) {
+  cv::VideoWriter writer(path, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
+                         20.0, size);
+  for (int i = 0; i < frames; ++i) {
+    writer.write(grey_picture(size.width, size.height, first_level + 20 * i));
+  }
+  return path;
+}
+
+TEST(VideoSourceTest, GivesThePairsOfTwoFiles) {
+  const TemporaryFolder folder;
+  const std::string left = write_video(folder / "l.avi", {64, 48}, 3, 40);
+  const std::string right = write_video(folder / "r.avi", {64, 48}, 3, 120);
+  VideoSource source(left, right, stereo_format(), {0.0, 1'000'000, false});
+
+  for (int i = 0; i < 3; ++i) {
+    const auto frame = source.next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->stamp.utime, 1'000'000 + i * 50'000);
+    EXPECT_EQ(frame->stamp.sequence, i);
+    EXPECT_NEAR(level_of(frame->first), 40 + 20 * i, kLevelTolerance);
+    EXPECT_NEAR(level_of(frame->second), 120 + 20 * i, kLevelTolerance);
+  }
+  EXPECT_FALSE(source.next());
+  EXPECT_TRUE(source.ended());
+}
+
+TEST(VideoSourceTest, SplitsPicturesThatHoldBothCameras) {
+  const TemporaryFolder folder;
+  VideoSource source(write_video(folder / "both.avi", {128, 48}, 1, 90), "", stereo_format(), {});
+  const auto frame = source.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->first.width, 64);
+  EXPECT_EQ(frame->second.width, 64);
+}
+
+TEST(VideoSourceTest, CountsOnThroughALoop) {
+  const TemporaryFolder folder;
+  VideoSource source(write_video(folder / "both.avi", {128, 48}, 2, 90), "", stereo_format(),
+                     {10.0, 0, true});
+  std::vector<std::int64_t> utimes;
+  for (int i = 0; i < 5; ++i) utimes.push_back(source.next()->stamp.utime);
+  EXPECT_THAT(utimes, ::testing::ElementsAre(0, 100'000, 200'000, 300'000, 400'000));
+}
+
+TEST(VideoSourceTest, RefusesOtherFiles) {
+  const TemporaryFolder folder;
+  const std::string text = folder.write("notes.txt", "this is no video");
+  EXPECT_THAT(error_of<InputError>([&] { VideoSource(text, "", stereo_format(), {}); }),
+              HasSubstr("notes.txt: cannot be opened as a video"));
+}
+
+SourceOptions options_for(const std::string& source) {
+  SourceOptions options;
+  options.source = source;
+  options.reopen = false;
+  return options;
+}
+
+std::string error_of_opening(const std::string& source, const PairFormat& format) {
+  return error_of<InputError>([&] { open_source(options_for(source), format); });
+}
+
+TEST(OpenSource, NamesWhatDoesNotExist) {
+  EXPECT_THAT(error_of_opening("/none", stereo_format()), HasSubstr("/none: does not exist"));
+  EXPECT_THAT(error_of_opening("/dev/video987", stereo_format()),
+              HasSubstr("/dev/video987: No such file or directory; is the camera plugged in?"));
+}
+
+TEST(OpenSource, NamesADeviceThatIsNoCamera) {
+  EXPECT_THAT(error_of_opening("/dev/null", stereo_format()),
+              HasSubstr("/dev/null: gives no pictures"));
+}
+
+TEST(OpenSource, WantsADepthCameraBesideTheColourCamera) {
+  EXPECT_THAT(error_of_opening("/dev/video0", depth_format()), HasSubstr("--source-depth"));
+}
+
+class Pipeline : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      open_camera("gst:videotestsrc num-buffers=1 ! video/x-raw,format=BGR", {});
+    } catch (const InputError&) {
+      GTEST_SKIP() << "GStreamer's base plugins are absent (gstreamer1.0-plugins-base)";
+    }
+  }
+  static std::string pattern(const std::string& format, int width, int frames) {
+    return "gst:videotestsrc is-live=true num-buffers=" + std::to_string(frames) +
+           " ! video/x-raw,framerate=50/1,height=48,format=" + format +
+           ",width=" + std::to_string(width);
+  }
+  static std::vector<FramePair> play(const SourceOptions& options, const PairFormat& format) {
+    const std::unique_ptr<PairSource> source = open_source(options, format);
+    std::vector<FramePair> frames;
+    while (!source->ended()) {
+      if (auto frame = source->next()) frames.push_back(std::move(*frame));
+    }
+    return frames;
+  }
+};
+
+TEST_F(Pipeline, GivesPairsSideBySideAndEnds) {
+  const std::vector<FramePair> frames = play(options_for(pattern("BGR", 128, 5)), stereo_format());
+
+  ASSERT_FALSE(frames.empty());
+  EXPECT_LE(frames.size(), 5U);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    EXPECT_GT(frames[i].stamp.utime, frames[i - 1].stamp.utime);
+  }
+}
+
+TEST_F(Pipeline, GivesDepthOf16Bit) {
+  SourceOptions options = options_for(pattern("BGR", 64, 20));
+  options.second_source = pattern("GRAY16_LE", 64, 20);
+  options.pair_tolerance_ms = 1000.0;
+
+  const std::vector<FramePair> frames = play(options, depth_format());
+
+  ASSERT_FALSE(frames.empty());
+  EXPECT_EQ(frames[0].second.bits, 16);
+  EXPECT_EQ(decode_image(frames[0].second, "test").type(), CV_16UC1);
+}
+
+TEST_F(Pipeline, OfTheWrongSizeIsRefused) {
+  EXPECT_THAT(
+      error_of<InputError>([&] { play(options_for(pattern("BGR", 320, 5)), stereo_format()); }),
+      HasSubstr("is 160x48, the calibration is for 64x48"));
+}
+
+TEST_F(Pipeline, ThatCannotBeStartedIsNamed) {
+  EXPECT_THAT(error_of_opening("gst:videotestsrc ! nosuchelement", stereo_format()),
+              HasSubstr("gst:videotestsrc ! nosuchelement: cannot be started"));
+}
+
+TEST_F(Pipeline, ThatHangsIsNamed) {
+  // Without any source GStreamer waits for ever.
+  SourceOptions options = options_for("gst:videoconvert");
+  options.open_timeout_s = 0.2;
+  EXPECT_THAT(error_of<InputError>([&] { open_source(options, stereo_format()); }),
+              HasSubstr("gst:videoconvert: did not open in time"));
+}
+
+}  // namespace
+}  // namespace limbcast
