@@ -25,8 +25,13 @@ Bgr draw_cloth(Rng& rng) {
     const double value = rng.uniform(20, 235);
     return from_rgb(value, value, value);
   }
-  if (kind < 0.40) return draw_skin(rng);  // beige, brown: hard for a skin detector
-  return from_rgb(rng.uniform(15, 230), rng.uniform(15, 230), rng.uniform(15, 230));
+  if (kind < 0.40) return draw_skin(rng);    // beige, brown: hard for a skin detector
+  const double grey = rng.uniform(30, 200);  // few clothes have a pure colour
+  const double purity = rng.uniform(0.2, 1.0);
+  const auto channel = [&] { return grey + purity * (rng.uniform(15, 230) - grey); };
+  const double red = channel();
+  const double green = channel();
+  return from_rgb(red, green, channel());
 }
 
 Bgr draw_hair_color(Rng& rng) {

@@ -74,7 +74,7 @@ cv::Mat grown(const cv::Mat& depth_m, double reach_px, double edge_share, Rng& r
 cv::Mat smooth_noise(int width, int height, double sigma_px, Rng& rng) {
   cv::Mat noise(height, width, CV_32F);
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) noise.at<float>(v, u) = static_cast<float>(rng.normal());
+    for (int u = 0; u < width; ++u) noise.at<float>(v, u) = rng.pixel_noise();
   }
   if (sigma_px > 0.2)
     cv::GaussianBlur(noise, noise, {}, sigma_px, sigma_px, cv::BORDER_REFLECT_101);
@@ -106,7 +106,7 @@ StereoSensorParams draw_stereo_sensor(Rng& rng) {
   params.correlation_px = rng.uniform(1.5, 3.5);
   params.weak_texture = rng.uniform(1.0, 3.0);
   params.fattening_px = rng.uniform(0.0, 6.0);
-  params.hole_share = rng.uniform(0.0, 0.06);
+  params.hole_share = rng.uniform(0.0, 0.03);
   params.blunder_share = rng.uniform(0.0, 0.01);
   params.occlusion_filled = rng.uniform(0.0, 0.6);
   return params;
@@ -130,11 +130,11 @@ cv::Mat sense_depth(const cv::Mat& true_depth_m, const cv::Mat& facing, const Pi
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
       const int from_u =
-          std::clamp(u + static_cast<int>(std::lround(rng.normal(0.0, params.lateral_sigma_px))), 0,
-                     width - 1);
+          std::clamp(u + static_cast<int>(std::lround(params.lateral_sigma_px * rng.pixel_noise())),
+                     0, width - 1);
       const int from_v =
-          std::clamp(v + static_cast<int>(std::lround(rng.normal(0.0, params.lateral_sigma_px))), 0,
-                     height - 1);
+          std::clamp(v + static_cast<int>(std::lround(params.lateral_sigma_px * rng.pixel_noise())),
+                     0, height - 1);
       double z = solid.at<float>(from_v, from_u);
       const bool flies = rng.chance(params.flying_share);
       const double between = rng.uniform();

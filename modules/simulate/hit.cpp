@@ -26,12 +26,31 @@ Vector3f solid_normal(const Solid& solid, const Vector3f& point) {
   return solid.frame_from_solid.linear() * normal;
 }
 
+/// The part of `surface` that shapes it near `point`, which lies on it.
+Surface nearby(const Surface& surface, const Vector3f& point, float reach_m) {
+  Surface result;
+  result.join_blend_m = surface.join_blend_m;
+  for (const PrimitiveGroup& group : surface.groups) {
+    PrimitiveGroup near{static_cast<int>(result.primitives.size()), 0, group.blend_m};
+    for (int i = group.first; i < group.first + group.count; ++i) {
+      const Primitive& primitive = surface.primitives[i];
+      const float margin =
+          group.blend_m + surface.join_blend_m + 2.0F * primitive.wrinkle_m + reach_m;
+      if (primitive.distance_m(point) < margin) result.primitives.push_back(primitive);
+    }
+    near.count = static_cast<int>(result.primitives.size()) - near.first;
+    if (near.count > 0) result.groups.push_back(near);
+  }
+  return result;
+}
+
 Vector3f surface_normal(const Surface& surface, const Vector3f& point) {
   constexpr float kStep = 0.001F;
+  const Surface near = nearby(surface, point, 2.0F * kStep);
   Vector3f gradient;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3f step = kStep * Vector3f::Unit(axis);
-    gradient[axis] = surface.distance_m(point + step) - surface.distance_m(point - step);
+    gradient[axis] = near.distance_m(point + step) - near.distance_m(point - step);
   }
   return gradient.normalized();
 }

@@ -5,7 +5,7 @@
 
 namespace limbcast::simulate {
 
-/// Random numbers that are the same on every machine and library (those of <random> are not).
+/// Random numbers that do not depend on the standard library (those of <random> do).
 ///
 /// SplitMix64: Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014.
 class Rng {
@@ -19,6 +19,14 @@ class Rng {
   /// Uniform in [low, high).
   double uniform(double low = 0.0, double high = 1.0) {
     return low + (high - low) * static_cast<double>(next() >> 11U) * 0x1.0p-53;
+  }
+  /// Near enough to standard normal for the noise of pixels, and ten times as fast: the sum of four
+  /// uniform numbers, at most 3.46.
+  float pixel_noise() {
+    const std::uint64_t bits = next();
+    const auto sum = static_cast<float>((bits & 0xFFFFU) + ((bits >> 16U) & 0xFFFFU) +
+                                        ((bits >> 32U) & 0xFFFFU) + (bits >> 48U));
+    return (sum / 65536.0F - 2.0F) * 1.7320508F;
   }
   /// Normal, by Box and Muller; draws beyond 3 sigma are drawn again, so that no body is a monster.
   double normal(double mean = 0.0, double sigma = 1.0) {

@@ -96,7 +96,7 @@ cv::Mat color_image(const Scenario& scenario, const HitImage& hits, const Pinhol
     for (int u = 0; u < image.cols; ++u) {
       for (int channel = 0; channel < 3; ++channel) {
         image.at<cv::Vec3f>(v, u)[channel] +=
-            static_cast<float>(noise.normal(0.0, params.noise_grey));
+            static_cast<float>(params.noise_grey) * noise.pixel_noise();
       }
     }
   }

@@ -50,7 +50,11 @@ Material SceneBuilder::wood() {
 
 Material SceneBuilder::some_material() {
   if (rng_.chance(0.35)) return wood();
-  const auto byte = [&] { return static_cast<std::uint8_t>(rng_.uniform(20, 235)); };
+  const double grey = rng_.uniform(40, 230);
+  const double purity = rng_.uniform(0.0, 0.8);
+  const auto byte = [&] {
+    return static_cast<std::uint8_t>(grey + purity * (rng_.uniform(20, 235) - grey));
+  };
   Material material = even({byte(), byte(), byte()}, static_cast<float>(rng_.uniform(0.0, 0.2)));
   material.second = {byte(), byte(), byte()};
   if (rng_.chance(0.3)) material.pattern = static_cast<Pattern>(1 + rng_.pick(3));

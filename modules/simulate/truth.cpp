@@ -68,8 +68,8 @@ bool visible(const Scenario& scenario, const Person& person, const FieldOfView& 
   if (!in_image(view, point)) return false;
   RayGrid ray;
   ray.width = ray.height = 1;
-  const Eigen::Vector3f direction = point.normalized().cast<float>();
-  ray.direction = [direction](int, int) { return direction; };
+  const Eigen::Vector3f towards = point.normalized().cast<float>();
+  ray.direction = [towards](int, int) { return towards; };
   const Hit hit = raycast(scenario.world, ray).at(0, 0);
   if (hit.surface != person.surface) return false;
   const Part part = part_of(scenario.world, hit);
