@@ -44,6 +44,14 @@ std::string basis_text(const Figure& figure) {
          figure.total_of;
 }
 
+/// "postures right [%]" -> "postures right 98.0 %"
+std::string in_words(const Figure& figure) {
+  const std::size_t unit_at = figure.title.find(" [");
+  if (unit_at == std::string::npos) return figure.title + ' ' + value_text(figure);
+  const std::string unit = figure.title.substr(unit_at + 2, figure.title.size() - unit_at - 3);
+  return figure.title.substr(0, unit_at) + ' ' + value_text(figure) + ' ' + unit;
+}
+
 void write_joints(const Report& report, std::ostream& out) {
   out << formatted("\n%-16s %12s %12s %9s\n", "joint", "within 10 cm", "mean error", "visible");
   for (std::size_t i = 0; i < report.joints_within.size(); ++i) {
@@ -160,7 +168,7 @@ std::string report_line(const Report& report, const Tally& tally) {
   for (const Figure& figure : report.figures) {
     const bool is_main =
         std::find(kMainFigures.begin(), kMainFigures.end(), figure.key) != kMainFigures.end();
-    if (is_main && figure.value) line += ' ' + figure.title + ' ' + value_text(figure) + ',';
+    if (is_main && figure.value) line += ' ' + in_words(figure) + ',';
   }
   line.back() = '\n';
   return line;

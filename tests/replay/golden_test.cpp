@@ -1,0 +1,57 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "common/lcm_io/pose_log.hpp"
+#include "common/pose_json/pose_lines.hpp"
+#include "tests/replay/pose_differences.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::replay {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<BodyPoses> poses_of(const std::string& log) {
+  std::vector<BodyPoses> frames;
+  lcm_io::visit_poses(log, "BODY_POSES", [&](const BodyPoses& poses) { frames.push_back(poses); });
+  return frames;
+}
+
+class ReplayOfALog : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::string replay_on(int threads) const {
+    const std::string out = folder_ + "/" + std::to_string(threads) + ".log";
+    const auto result =
+        test::run({test::program("limbcast-replay"),
+                   test::repository_file(std::string("logs/") + GetParam() + ".log"), out,
+                   "--threads", std::to_string(threads)});
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return out;
+  }
+  const std::string folder_ = test::temporary_folder(std::string("golden_") + GetParam());
+};
+
+// Update on purpose with tests/replay/update_golden.sh.
+TEST_P(ReplayOfALog, GivesTheRecordedPosesAndTheSameBytesOnAnyNumberOfThreads) {
+  const std::string one = replay_on(1);
+  const auto golden = pose_json::read_file(
+      test::repository_file(std::string("tests/replay/golden/") + GetParam() + ".jsonl"));
+  EXPECT_THAT(pose_differences(golden, poses_of(one)), ::testing::IsEmpty());
+  const std::string bytes = bytes_of(one);
+  for (const int threads : {2, 4}) {
+    // No EXPECT_EQ: it would print megabytes.
+    EXPECT_TRUE(bytes_of(replay_on(threads)) == bytes) << threads << " threads give another log";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Logs, ReplayOfALog, ::testing::Values("demo", "multi", "nobody"),
+                         [](const auto& name) { return std::string(name.param); });
+
+}  // namespace
+}  // namespace limbcast::replay
