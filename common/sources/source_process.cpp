@@ -67,6 +67,18 @@ void publish(PairSource& source, Sender& sender, lcm_io::Module& module, double 
     if (frame && !lcm_io::stop_requested()) sender.send(outlet, std::move(*frame));
     module.spin_once();
   }
+  if (source.live()) show_statistics(source.statistics(), module);
+}
+
+void log_abilities(const SourceOptions& options) {
+  for (const std::string& camera : {options.source, options.second_source}) {
+    const std::string abilities = camera_abilities(camera);
+    if (!abilities.empty()) log_info(camera + ": " + abilities);
+  }
+}
+
+void log_problem(const std::string& problem) {
+  if (!problem.empty()) config::log(config::LogLevel::kError, problem);
 }
 
 void write_log(PairSource& source, Sender& sender, const std::string& path) {
@@ -75,6 +87,7 @@ void write_log(PairSource& source, Sender& sender, const std::string& path) {
   while (!source.ended() && !lcm_io::stop_requested()) {
     if (std::optional<FramePair> frame = source.next()) sender.send(outlet, std::move(*frame));
   }
+  if (source.live()) log_problem(source.statistics().problem);
   log.close();
 }
 
@@ -164,6 +177,14 @@ Mounting mounting_of(const SourceProcessOptions& options) {
   return mounting;
 }
 
+void Outlet::report_problem(const std::string& text) {
+  if (module_ != nullptr) {
+    module_->report_problem(text);
+  } else {
+    config::log(config::LogLevel::kError, text);
+  }
+}
+
 void run_source(const std::string& module_name, const SourceProcessOptions& options,
                 const config::CommonOptions& common, const PairFormat& format,
                 const Mounting& calibration, const SendFrame& send) {
@@ -177,11 +198,13 @@ void run_source(const std::string& module_name, const SourceProcessOptions& opti
   if (options.log.empty()) {
     lcm_io::Module module(module_name, common);
     log_info(source->description());
+    log_abilities(source_options);
     publish(*source, sender, module, options.source.rate_hz);
   } else {
     config::configure_log(module_name, common.log_level);
     lcm_io::install_signal_handlers();
     log_info(source->description());
+    log_abilities(source_options);
     write_log(*source, sender, options.log);
   }
   log_info(std::to_string(sender.num_sent()) + " frames sent");

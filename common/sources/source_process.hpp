@@ -60,6 +60,8 @@ class Outlet {
       module_->publish_frame(channel, message);
     }
   }
+  /// A problem that the program survives: logged, and in the status.
+  void report_problem(const std::string& text);
   /// The clock of what is sent once a second: the log's, or this host's [us].
   std::int64_t now(std::int64_t frame_utime) const {
     return log_ != nullptr ? frame_utime : lcm_io::utime_now();

@@ -6,11 +6,15 @@
 #include "common/lcm_io/stamp_codec.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
+#include "modules/stereo_camera/swap_check.hpp"
 
 namespace limbcast::stereo_camera {
 namespace {
 
 constexpr std::int64_t kCalibrationPeriod_us = 1'000'000;
+
+/// The order of the cameras does not change while the program runs.
+constexpr std::int64_t kFramesToCheck = 3;
 
 struct Options {
   SourceProcessOptions process;
@@ -33,6 +37,34 @@ stereo_images_t to_message(const FramePair& frame) {
   return message;
 }
 
+/// Says so where the pictures show that left and right are swapped.
+class OrderCheck {
+ public:
+  explicit OrderCheck(const StereoCalibration& calibration) : calibration_(calibration) {}
+
+  void look_at(const FramePair& frame, Outlet& outlet) {
+    if (frame.stamp.sequence >= kFramesToCheck || told_) return;
+    evidence_ += compare_blocks(grey(frame.first), grey(frame.second), calibration_);
+    told_ = looks_swapped(evidence_);
+    if (!told_) return;
+    outlet.report_problem("left and right images look swapped (" +
+                          std::to_string(evidence_.behind_infinity) + " of " +
+                          std::to_string(evidence_.blocks) +
+                          " blocks stand behind infinity); swap the cameras or the files");
+  }
+
+ private:
+  static cv::Mat grey(const EncodedImage& image) {
+    EncodedImage wanted = image;
+    wanted.channels = 1;
+    return decode_image(wanted, "stereo pair");
+  }
+
+  const StereoCalibration& calibration_;
+  SwapEvidence evidence_;
+  bool told_ = false;
+};
+
 void run(const Options& options, const config::CommonOptions& common) {
   if (is_lcm_log(options.process.source.source)) {
     play_log<stereo_images_t>(
@@ -50,6 +82,7 @@ void run(const Options& options, const config::CommonOptions& common) {
                           sensor + "/left_rectified",
                           options.process.source.jpeg_quality};
   std::optional<std::int64_t> calibration_sent_at;
+  OrderCheck order(calibration);
   const auto send = [&](Outlet& outlet, const FramePair& frame) {
     const std::int64_t now = outlet.now(frame.stamp.utime);
     if (!calibration_sent_at || now - *calibration_sent_at >= kCalibrationPeriod_us) {
@@ -58,6 +91,7 @@ void run(const Options& options, const config::CommonOptions& common) {
       calibration_sent_at = now;
     }
     outlet.send_frame(options.images_channel, to_message(frame));
+    order.look_at(frame, outlet);
   };
   run_source("stereo_camera", options.process, common, format, calibration.mounting, send);
 }
