@@ -1,29 +1,92 @@
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "common/config/log.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
 #include "modules/simulate/frame_folder.hpp"
+#include "modules/simulate/frame_messages.hpp"
 #include "modules/simulate/options.hpp"
 
 namespace limbcast::simulate {
 namespace {
 
-void run(int argc, const char* const* argv) {
-  SimulateOptions options;
-  config::Section section("simulate");
-  declare(section, options);
-  config::Parser parser("limbcast-simulate", "Makes recordings with truth of simulated people.");
-  parser.add(section);
-  if (!parser.parse(argc, argv)) return;
-  config::configure_log("simulate", parser.common().log_level);
-  const SimulatorParams params = to_params(options);
-  FrameFolder folder(options.output, params);
-  for (int i = 0; i < options.frames; ++i) {
-    folder.write(
-        simulate_frame(params, static_cast<std::uint64_t>(options.seed), options.first + i));
+void declare(config::Section& section, Channels& channels) {
+  section.add("stereo-images-channel", channels.stereo_images, "output: pairs");
+  section.add("stereo-calibration-channel", channels.stereo_calibration,
+              "output: their calibration");
+  section.add("depth-images-channel", channels.depth_images, "output: frames of a depth camera");
+  section.add("point-cloud-channel", channels.point_cloud, "output: clouds of a laser");
+  section.add("truth-channel", channels.truth, "output: the truth");
+}
+
+/// Calls `take` with each frame until all are made or the program is told to end.
+template <class Take>
+void make_frames(const SimulateOptions& options, const SimulatorParams& params, const Take& take) {
+  for (int i = 0; i < options.frames && !lcm_io::stop_requested(); ++i) {
+    take(simulate_frame(params, static_cast<std::uint64_t>(options.seed), options.first + i), i);
     if ((i + 1) % 10 == 0 || i + 1 == options.frames) {
       config::log(config::LogLevel::kInfo,
-                  std::to_string(i + 1) + " of " + std::to_string(options.frames) + " frames");
+                  std::to_string(i + 1) + " of " + std::to_string(options.frames) + " frames made");
     }
+  }
+}
+
+void write_log(const SimulateOptions& options, const SimulatorParams& params,
+               const Channels& channels) {
+  lcm_io::LogWriter log(options.log);
+  Outlet outlet(log);
+  make_frames(options, params, [&](const SimulatedFrame& frame, int i) {
+    FrameMessages(params, frame, options.sensor_name, i).send(channels, outlet);
+  });
+  log.close();
+}
+
+/// Frames take longer to make than a sensor takes: they are made first, then sent at the sensor's
+/// rate.
+void publish(const SimulateOptions& options, const SimulatorParams& params,
+             const Channels& channels, const config::CommonOptions& common) {
+  lcm_io::Module module("simulate", common);
+  Outlet outlet(module);
+  std::vector<FrameMessages> messages;
+  make_frames(options, params, [&](const SimulatedFrame& frame, int i) {
+    messages.emplace_back(params, frame, options.sensor_name, i);
+    module.spin_once();
+  });
+  Pacer pacer(options.rate_hz);
+  std::int64_t sequence = 0;
+  do {
+    for (FrameMessages& message : messages) {
+      wait_until(pacer.due(message.utime(), Pacer::Clock::now()), module);
+      if (lcm_io::stop_requested()) return;
+      message.restamp(lcm_io::utime_now(), sequence++);
+      message.send(channels, outlet);
+    }
+  } while (options.loop);
+}
+
+void run(int argc, const char* const* argv) {
+  SimulateOptions options;
+  Channels channels;
+  config::Section section("simulate");
+  declare(section, options);
+  declare(section, channels);
+  config::Parser parser(
+      "limbcast-simulate",
+      "Makes recordings with truth of simulated people: as a folder, as a log, or live over LCM.");
+  parser.add(section);
+  if (!parser.parse(argc, argv)) return;
+  const SimulatorParams params = to_params(options);
+  config::configure_log("simulate", parser.common().log_level);
+  lcm_io::install_signal_handlers();
+  if (!options.output.empty()) {
+    FrameFolder folder(options.output, params);
+    make_frames(options, params, [&](const SimulatedFrame& frame, int) { folder.write(frame); });
+  } else if (!options.log.empty()) {
+    write_log(options, params, channels);
+  } else {
+    publish(options, params, channels, parser.common());
   }
 }
 

@@ -7,6 +7,11 @@ namespace limbcast::simulate {
 void declare(config::Section& section, SimulateOptions& options) {
   SimulatorParams& params = options.params;
   section.add("output", options.output, "folder to write the frames to");
+  section.add("log", options.log,
+              "LCM log to write; without folder and log the frames go out live");
+  section.add("rate", options.rate_hz, "frames/s", "of live frames", {0.1, 1000.0});
+  section.add("loop", options.loop, "live: start again at the end");
+  section.add("sensor-name", options.sensor_name, "name of the sensor in all messages");
   section.add("frames", options.frames, "", "how many frames", {1, 1000000});
   section.add("first", options.first, "", "number of the first frame", {0, 1000000});
   section.add("seed", options.seed, "", "of all that is drawn; the same seed gives the same frames",
@@ -61,8 +66,10 @@ SimulatorParams to_params(const SimulateOptions& options) {
       {"depth", SensorKind::kDepth},
       {"laser", SensorKind::kLaser}};
   SimulatorParams params = options.params;
-  if (options.output.empty())
-    throw config::UsageError("--output is missing: the folder to write the frames to");
+  if (!options.output.empty() && !options.log.empty()) {
+    throw config::UsageError("--output and --log exclude one another: give one of them");
+  }
+  if (options.sensor_name.empty()) throw config::UsageError("--sensor-name must not be empty");
   if (params.scenario.min_distance_m >= params.scenario.max_distance_m) {
     throw config::UsageError("--min-distance-m must be less than --max-distance-m");
   }

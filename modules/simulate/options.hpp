@@ -9,11 +9,14 @@ namespace limbcast::simulate {
 
 /// Options of limbcast-simulate: what users turn, with their defaults.
 struct SimulateOptions {
-  std::string output;
+  std::string output, log;  ///< both empty: live over LCM
+  std::string sensor_name = "simulated";
   std::string set = "pointing";
   std::string sensor = "stereo";
   std::string noise = "varied";
   int frames = 20, first = 0, seed = 1, persons = 0;
+  double rate_hz = 10.0;  ///< of live frames
+  bool loop = false;
   SimulatorParams params;
 };
 

@@ -11,6 +11,9 @@ namespace {
 using Eigen::Vector3d;
 using nlohmann::json;
 
+/// Share of forearm and hand that must be seen, as in data/stereo_dev.
+constexpr double kVisibleArmShare = 0.5;
+
 /// What may lie over a joint, and how thick it may be along the ray as a share of the stature: 1.5
 /// times the median depths in data/README.md, for people seen from the side and in coats.
 struct Cover {
@@ -121,7 +124,7 @@ json pointing_json(const Person& person, const Visibility& seen) {
           {"eye", metres(skeleton.eye)},
           {"fingertip", metres(skeleton.fingertip[side])},
           {"target", nullptr},
-          {"arm_visible", seen.arm_fraction >= 0.5},
+          {"arm_visible", seen.arm_fraction >= kVisibleArmShare},
           {"arm_visible_fraction", std::round(seen.arm_fraction * 100.0) / 100.0}};
 }
 
@@ -193,6 +196,41 @@ json truth_json(const Scenario& scenario, const FieldOfView& view, const std::ve
   if (view.width > 0) {
     truth["camera"] = {{"width", view.width}, {"height", view.height}, {"fx", view.fx},
                        {"fy", view.fy},       {"cx", view.cx},         {"cy", view.cy}};
+  }
+  return truth;
+}
+
+BodyPoses truth_poses(const Scenario& scenario, const FieldOfView& view, const Stamp& stamp) {
+  BodyPoses truth;
+  truth.stamp = stamp;
+  truth.stamp.gravity.down = scenario.down.cast<float>();
+  truth.stamp.gravity.source = GravitySource::kRecording;
+  truth.stamp.gravity.sensor_height_m = static_cast<float>(scenario.sensor_height_m);
+  for (const Person& person : scenario.persons) {
+    const Visibility seen = visibility_of(scenario, person, view);
+    BodyPose pose;
+    pose.id = static_cast<std::int32_t>(truth.persons.size()) + 1;
+    pose.confidence = 1.0F;
+    for (int j = 0; j < kJointCount; ++j) {
+      JointEstimate& joint = pose.joints[j];
+      joint.valid = true;
+      joint.position_m = person.skeleton.joints[j].cast<float>();
+      joint.confidence = seen.joints[j] ? 1.0F : 0.0F;
+    }
+    if (person.posture.pointing_side >= 0) {
+      const auto side = static_cast<Side>(person.posture.pointing_side);
+      const Vector3d& wrist = person.skeleton[on_side(Joint::kWristLeft, side)];
+      const Vector3d& elbow = person.skeleton[on_side(Joint::kElbowLeft, side)];
+      const Vector3d& hand = person.skeleton.hand[person.posture.pointing_side];
+      Pointing pointing;
+      pointing.side = side;
+      pointing.direction = arm_axis(person.skeleton, side).cast<float>();
+      pointing.forearm = (wrist - elbow).normalized().cast<float>();
+      pointing.head_hand = (hand - person.skeleton[Joint::kHead]).normalized().cast<float>();
+      pointing.confidence = seen.arm_fraction >= kVisibleArmShare ? 1.0F : 0.0F;
+      pose.pointing.push_back(pointing);
+    }
+    truth.persons.push_back(pose);
   }
   return truth;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/human_model/body_pose.hpp"
 #include "modules/simulate/scenario.hpp"
 
 namespace limbcast::simulate {
@@ -29,5 +30,9 @@ Visibility visibility_of(const Scenario& scenario, const Person& person, const F
 /// under "camera" or "sensor". `pixels[i]`: how many pixels or points show person i.
 nlohmann::json truth_json(const Scenario& scenario, const FieldOfView& view,
                           const std::vector<int>& pixels);
+
+/// The same truth as it goes out on GROUND_TRUTH, with the conventions of read_ground_truth:
+/// confidence is 1 where a joint or the pointing arm is visible, else 0.
+BodyPoses truth_poses(const Scenario& scenario, const FieldOfView& view, const Stamp& stamp);
 
 }  // namespace limbcast::simulate

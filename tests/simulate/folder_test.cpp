@@ -80,10 +80,13 @@ TEST_F(FolderTest, AFolderThatCannotBeMadeIsWrongUsage) {
   EXPECT_THROW(FrameFolder("/proc/nowhere", SimulatorParams{}), config::UsageError);
 }
 
-TEST(Options, RefuseAMissingOutputAndContradictoryDistances) {
+TEST(Options, RefuseWhatContradictsItself) {
   SimulateOptions options;
+  options.output = "folder";
+  options.log = "out.log";
   EXPECT_THROW(to_params(options), config::UsageError);
-  options.output = "x";
+  options.log.clear();
+  EXPECT_NO_THROW(to_params(options));
   options.params.scenario.min_distance_m = 4.0;
   options.params.scenario.max_distance_m = 3.0;
   EXPECT_THROW(to_params(options), config::UsageError);

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/human_model/ground_truth_json.hpp"
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/depth_images_codec.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/lcm_io/stereo_images_codec.hpp"
+#include "modules/simulate/frame_folder.hpp"
+#include "modules/simulate/frame_messages.hpp"
+#include "modules/simulate/truth.hpp"
+
+namespace limbcast::simulate {
+namespace {
+
+SimulatorParams small_params(SensorKind sensor) {
+  SimulatorParams params;
+  params.camera = {160, 120, 130.0, 130.0, 79.5, 59.5};
+  params.scenario.set = SetKind::kPointing;
+  params.sensor = sensor;
+  params.laser.rings = 16;
+  return params;
+}
+
+/// What stands in a log of one frame, by channel.
+std::vector<lcm_io::LogEvent> logged(const FrameMessages& messages) {
+  const std::string path = ::testing::TempDir() + "limbcast_simulate_messages.log";
+  lcm_io::LogWriter writer(path);
+  Outlet outlet(writer);
+  messages.send({}, outlet);
+  writer.close();
+  std::vector<lcm_io::LogEvent> events;
+  lcm_io::LogReader reader(path);
+  while (auto event = reader.next()) events.push_back(*event);
+  std::filesystem::remove(path);
+  return events;
+}
+
+TEST(FrameMessages, AStereoFrameIsCalibrationPairAndTruth) {
+  const SimulatorParams params = small_params(SensorKind::kStereo);
+  const SimulatedFrame frame = simulate_frame(params, 1, 0);
+
+  const auto events = logged(FrameMessages(params, frame, "front", 5));
+
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[0].channel, "STEREO_CALIBRATION");
+  EXPECT_EQ(events[1].channel, "STEREO_IMAGES");
+  EXPECT_EQ(events[2].channel, "GROUND_TRUTH");
+  const StereoImages images = lcm_io::from_message(lcm_io::decode<stereo_images_t>(events[1].data));
+  EXPECT_EQ(images.left.cols, 160);
+  EXPECT_EQ(images.stamp.utime, frame.scenario.utime);
+  EXPECT_EQ(images.stamp.sensor, "front");
+  EXPECT_EQ(images.stamp.sequence, 5);
+}
+
+TEST(FrameMessages, ADepthFrameKeepsItsMillimetres) {
+  const SimulatorParams params = small_params(SensorKind::kDepth);
+  const SimulatedFrame frame = simulate_frame(params, 1, 0);
+
+  const auto events = logged(FrameMessages(params, frame, "front", 0));
+
+  ASSERT_EQ(events.size(), 2U);
+  const auto decoded = lcm_io::from_message(lcm_io::decode<depth_images_t>(events[0].data));
+  for (int v = 0; v < 120; v += 7) {
+    for (int u = 0; u < 160; u += 7) {
+      EXPECT_NEAR(decoded.images.depth.at<std::uint16_t>(v, u),
+                  1000.0F * frame.sensed_depth_m.at<float>(v, u), 0.51);
+    }
+  }
+}
+
+TEST(FrameMessages, ALaserFrameIsAListOfFinitePoints) {
+  SimulatorParams params = small_params(SensorKind::kLaser);
+  params.laser.organised = true;
+  const SimulatedFrame frame = simulate_frame(params, 1, 0);
+
+  const auto events = logged(FrameMessages(params, frame, "laser", 0));
+
+  ASSERT_EQ(events.size(), 2U);
+  const Cloud cloud = lcm_io::from_message(lcm_io::decode<point_cloud_t>(events[0].data));
+  EXPECT_FALSE(cloud.organized());
+  EXPECT_GT(cloud.points_m.size(), 1000U);
+}
+
+TEST(FrameMessages, TheTruthIsThatOfTheFolder) {
+  const SimulatorParams params = small_params(SensorKind::kDepth);
+  const SimulatedFrame frame = simulate_frame(params, 1, 2);
+  const std::string folder = ::testing::TempDir() + "limbcast_simulate_truth";
+  FrameFolder(folder, params).write(frame);
+
+  const BodyPoses read = read_ground_truth(folder + "/" + frame.scenario.name + "_gt.json");
+  const BodyPoses sent = truth_poses(frame.scenario, params.camera, {});
+
+  ASSERT_EQ(read.persons.size(), sent.persons.size());
+  for (std::size_t i = 0; i < read.persons.size(); ++i) {
+    for (int j = 0; j < kJointCount; ++j) {
+      const JointEstimate& a = read.persons[i].joints[j];
+      const JointEstimate& b = sent.persons[i].joints[j];
+      EXPECT_NEAR((a.position_m - b.position_m).norm(), 0.0F, 2e-4F) << kJointNames[j];
+      EXPECT_EQ(a.confidence, b.confidence) << kJointNames[j];
+    }
+    ASSERT_EQ(read.persons[i].pointing.size(), sent.persons[i].pointing.size());
+    EXPECT_EQ(read.persons[i].pointing[0].side, sent.persons[i].pointing[0].side);
+    EXPECT_EQ(read.persons[i].pointing[0].confidence, sent.persons[i].pointing[0].confidence);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FrameMessages, RestampingChangesTimeAndNumberOfAll) {
+  const SimulatorParams params = small_params(SensorKind::kStereo);
+  FrameMessages messages(params, simulate_frame(params, 1, 0), "front", 0);
+
+  messages.restamp(123456, 7);
+
+  const auto events = logged(messages);
+  EXPECT_EQ(messages.utime(), 123456);
+  EXPECT_EQ(lcm_io::decode<stereo_images_t>(events[1].data).stamp.sequence, 7);
+  EXPECT_EQ(lcm_io::decode<body_poses_t>(events[2].data).stamp.utime, 123456);
+}
+
+}  // namespace
+}  // namespace limbcast::simulate
