@@ -73,7 +73,7 @@ LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
 }
 
 Eigen::Matrix3d read_rotation(const YamlReader& yaml, const std::string& key) {
-  const Eigen::Matrix3d R = yaml.matrix(key, 3, 3);
+  Eigen::Matrix3d R = yaml.matrix(key, 3, 3);
   const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (deviation > kRotationTolerance || R.determinant() < 0.0) {
     yaml.fail(key, "is not a rotation (off by " + text_of(deviation) + ")", "calibrate again");

@@ -163,9 +163,12 @@ void check_partners(const RecordedFrame& frame, const std::string& name, const s
                     const FilePair& pair) {
   for (const bool is_first : {true, false}) {
     if (!(is_first ? frame.first_path : frame.second_path).empty()) continue;
-    throw InputError(folder + ": " + (is_first ? frame.second_path : frame.first_path) +
-                     " has no partner " + name + "_" + (is_first ? pair.first : pair.second) +
-                     ".jpg or .png; add it or remove the frame");
+    const std::string& lonely = is_first ? frame.second_path : frame.first_path;
+    const std::string& partner = is_first ? pair.first : pair.second;
+    std::ostringstream text;
+    text << folder << ": " << lonely << " has no partner " << name << "_" << partner
+         << ".jpg or .png; add it or remove the frame";
+    throw InputError(text.str());
   }
 }
 

@@ -114,7 +114,8 @@ Eigen::MatrixXd YamlReader::matrix(const std::string& key, int rows, int cols) c
   const bool size_told = value.isMap() && !is_vector;
   const bool size_right = !size_told || (static_cast<int>(value["rows"]) == rows &&
                                          static_cast<int>(value["cols"]) == cols);
-  if (!size_right || values.size() != static_cast<std::size_t>(rows * cols)) {
+  if (!size_right ||
+      values.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
     fail(key, size_text(value, values.size()),
          "must be " + std::to_string(rows) + " x " + std::to_string(cols));
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLongestWait{100};
 
-FramePair make_frame(const PairFormat& format, CapturedPair pair, std::int64_t sequence,
+FramePair make_frame(const PairFormat& format, const CapturedPair& pair, std::int64_t sequence,
                      const std::string& where) {
   FramePair frame;
   frame.first = coded_for_sending(pair.first, format.jpeg_quality);
@@ -60,7 +60,7 @@ std::optional<FramePair> TwoCameraSource::next() {
     newest = std::move(pair);
   }
   if (!newest) return std::nullopt;
-  return make_frame(format_, std::move(*newest), sequence_++, names_);
+  return make_frame(format_, *newest, sequence_++, names_);
 }
 
 SourceStatistics TwoCameraSource::statistics() const {

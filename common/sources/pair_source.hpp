@@ -9,6 +9,7 @@
 #include "common/camera/recording.hpp"
 #include "common/cloud/cloud.hpp"
 #include "common/human_model/body_pose.hpp"
+#include "common/sources/frame_source.hpp"
 
 namespace limbcast {
 
@@ -29,32 +30,7 @@ struct PairFormat {
   int jpeg_quality = 95;  ///< of pictures that are no JPEG yet, 1 to 100; 0: PNG, without loss
 };
 
-/// Counted since the start.
-struct SourceStatistics {
-  std::int64_t dropped = 0;   ///< live frames that a newer one replaced before they were taken
-  std::int64_t unpaired = 0;  ///< live frames of one camera without a partner in time
-  std::int64_t reopened = 0;  ///< times that a camera was opened again
-  std::string problem;        ///< what is wrong now, empty = nothing
-};
-
-/// Where frames come from: a recording, a video, cameras.
-class PairSource {
- public:
-  PairSource() = default;
-  virtual ~PairSource() = default;
-  PairSource(const PairSource&) = delete;
-  PairSource& operator=(const PairSource&) = delete;
-
-  /// The next frame. Nothing: at the end, or where a live source had none within 100 ms. Throws
-  /// InputError for a frame that cannot be used.
-  virtual std::optional<FramePair> next() = 0;
-  virtual bool ended() const = 0;
-  /// Live: frames come when the camera gives them. Else: as fast as they are asked for.
-  virtual bool live() const = 0;
-  virtual SourceStatistics statistics() const { return {}; }
-  /// For the log at start: what it is, how many frames.
-  virtual std::string description() const = 0;
-};
+using PairSource = FrameSource<FramePair>;
 
 /// Checks that both pictures have the size of the calibration and the kind that the sensor gives.
 /// `where` names them in errors.

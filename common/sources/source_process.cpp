@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "common/config/log.hpp"
-#include "common/lcm_io/body_poses_codec.hpp"
 #include "common/sources/log_playback.hpp"
+#include "common/sources/source_loop.hpp"
 
 namespace limbcast {
 namespace {
@@ -16,37 +16,17 @@ namespace {
 constexpr std::chrono::milliseconds kTick{20};
 constexpr double kMicroseconds = 1e6;
 
-void log_info(const std::string& text) { config::log(config::LogLevel::kInfo, text); }
-
-/// Sends frames from one source to one outlet.
-class Sender {
- public:
-  Sender(const SourceProcessOptions& options, const Mounting& calibration, SendFrame send)
-      : options_(options),
-        option_mounting_(mounting_of(options)),
-        calibration_mounting_(calibration),
-        send_(std::move(send)) {}
-
-  void send(Outlet& outlet, FramePair frame) {
-    apply_mounting(option_mounting_, calibration_mounting_, frame.stamp.gravity);
-    if (options_.restamp) {
-      frame.stamp.utime = lcm_io::utime_now();
-      if (frame.truth) frame.truth->stamp.utime = frame.stamp.utime;
-    }
-    send_(outlet, frame);
-    if (frame.truth) {
-      outlet.send(frame.stamp.utime, options_.truth_channel, lcm_io::to_message(*frame.truth));
-    }
-    ++num_sent_;
+/// For the log at start: the source, and what its devices can do.
+std::string describe(const PairSource& source, const SourceOptions& options) {
+  std::string text = source.description();
+  for (const std::string& camera : {options.source, options.second_source}) {
+    const std::string abilities = camera_abilities(camera);
+    if (!abilities.empty()) text.append("; ").append(camera).append(": ").append(abilities);
   }
-  std::int64_t num_sent() const { return num_sent_; }
+  return text;
+}
 
- private:
-  const SourceProcessOptions& options_;
-  Mounting option_mounting_, calibration_mounting_;
-  SendFrame send_;
-  std::int64_t num_sent_ = 0;
-};
+}  // namespace
 
 void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module) {
   module.set_note(std::to_string(statistics.dropped) + " dropped, " +
@@ -54,44 +34,6 @@ void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module)
                   std::to_string(statistics.reopened) + " reopened");
   if (!statistics.problem.empty()) module.report_problem(statistics.problem);
 }
-
-void publish(PairSource& source, Sender& sender, lcm_io::Module& module, double rate_hz) {
-  Outlet outlet(module);
-  Pacer pacer(rate_hz);
-  while (!source.ended() && !lcm_io::stop_requested()) {
-    std::optional<FramePair> frame = source.next();
-    if (source.live()) show_statistics(source.statistics(), module);
-    if (frame && !source.live()) {
-      wait_until(pacer.due(frame->stamp.utime, Pacer::Clock::now()), module);
-    }
-    if (frame && !lcm_io::stop_requested()) sender.send(outlet, std::move(*frame));
-    module.spin_once();
-  }
-  if (source.live()) show_statistics(source.statistics(), module);
-}
-
-void log_abilities(const SourceOptions& options) {
-  for (const std::string& camera : {options.source, options.second_source}) {
-    const std::string abilities = camera_abilities(camera);
-    if (!abilities.empty()) log_info(camera + ": " + abilities);
-  }
-}
-
-void log_problem(const std::string& problem) {
-  if (!problem.empty()) config::log(config::LogLevel::kError, problem);
-}
-
-void write_log(PairSource& source, Sender& sender, const std::string& path) {
-  lcm_io::LogWriter log(path);
-  Outlet outlet(log);
-  while (!source.ended() && !lcm_io::stop_requested()) {
-    if (std::optional<FramePair> frame = source.next()) sender.send(outlet, std::move(*frame));
-  }
-  if (source.live()) log_problem(source.statistics().problem);
-  log.close();
-}
-
-}  // namespace
 
 void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
   while (!lcm_io::stop_requested()) {
@@ -113,6 +55,28 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
   }
 }
 
+void require_end(const SourceProcessOptions& options) {
+  if (options.log.empty() || !options.source.loop) return;
+  throw config::UsageError("'log' and 'loop' together never end; leave one out");
+}
+
+void declare_playback(config::Section& section, SourceProcessOptions& options) {
+  section.add("sensor", options.sensor, "name of the sensor in all messages");
+  section.add("log", options.log, "write this LCM log instead of publishing");
+  section.add("rate", options.source.rate_hz, "frames/s",
+              "send at this rate; 0: as recorded, or 10 where no times are recorded",
+              {0.0, 1000.0});
+  section.add("loop", options.source.loop, "start a recording again at its end");
+  section.add("restamp", options.restamp, "utime is the moment of sending, not the recorded one");
+  section.add("start-time-s", options.start_time_s, "s",
+              "time of the first frame where no times are recorded, since the Unix epoch",
+              {0.0, 4e9});
+  section.add("down", options.down, "gravity in the sensor's frame as X,Y,Z; overrides all others");
+  section.add("sensor-height-m", options.sensor_height_m, "m",
+              "height of the sensor over the ground, 0 = not told", {0.0, 100.0});
+  section.add("truth-channel", options.truth_channel, "channel of the truth beside a recording");
+}
+
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key) {
   SourceOptions& source = options.source;
@@ -123,21 +87,9 @@ void declare(config::Section& section, SourceProcessOptions& options,
               "camera or video of the second image, where it has one of its own");
   section.add("calibration", options.calibration,
               "calibration file: OpenCV YAML, or ROS camera_info YAML");
-  section.add("sensor", options.sensor, "name of the sensor in all messages");
-  section.add("log", options.log, "write this LCM log instead of publishing");
-  section.add("rate", source.rate_hz, "frames/s",
-              "send at this rate; 0: as recorded, or 10 where no times are recorded",
-              {0.0, 1000.0});
-  section.add("loop", source.loop, "start a recording again at its end");
-  section.add("restamp", options.restamp, "utime is the moment of sending, not the recorded one");
-  section.add("start-time-s", options.start_time_s, "s",
-              "time of the first frame where no times are recorded, since the Unix epoch",
-              {0.0, 4e9});
+  declare_playback(section, options);
   section.add("jpeg-quality", source.jpeg_quality, "",
               "of pictures that are no JPEG yet; 0: PNG, without loss", {0, 100});
-  section.add("down", options.down, "gravity in the camera's frame as X,Y,Z; overrides all others");
-  section.add("sensor-height-m", options.sensor_height_m, "m",
-              "height of the camera over the ground, 0 = not told", {0.0, 100.0});
   section.add("camera-width", source.camera.width, "px",
               "ask the camera for this size, 0 = its own", {0, 16384});
   section.add("camera-height", source.camera.height, "px",
@@ -156,7 +108,6 @@ void declare(config::Section& section, SourceProcessOptions& options,
               "without a frame for this long a camera counts as stalled", {0.1, 3600.0});
   section.add("reopen", source.reopen,
               "open a camera that fails or ends again each second; false: end the program");
-  section.add("truth-channel", options.truth_channel, "channel of the truth beside a recording");
 }
 
 Mounting mounting_of(const SourceProcessOptions& options) {
@@ -188,26 +139,12 @@ void Outlet::report_problem(const std::string& text) {
 void run_source(const std::string& module_name, const SourceProcessOptions& options,
                 const config::CommonOptions& common, const PairFormat& format,
                 const Mounting& calibration, const SendFrame& send) {
-  if (!options.log.empty() && options.source.loop) {
-    throw config::UsageError("'log' and 'loop' together never end; leave one out");
-  }
+  require_end(options);
   SourceOptions source_options = options.source;
   source_options.start_utime = std::llround(kMicroseconds * options.start_time_s);
-  Sender sender(options, calibration, send);
+  FrameSender<FramePair> sender(options, calibration, send);
   const std::unique_ptr<PairSource> source = open_source(source_options, format);
-  if (options.log.empty()) {
-    lcm_io::Module module(module_name, common);
-    log_info(source->description());
-    log_abilities(source_options);
-    publish(*source, sender, module, options.source.rate_hz);
-  } else {
-    config::configure_log(module_name, common.log_level);
-    lcm_io::install_signal_handlers();
-    log_info(source->description());
-    log_abilities(source_options);
-    write_log(*source, sender, options.log);
-  }
-  log_info(std::to_string(sender.num_sent()) + " frames sent");
+  run_frames(module_name, options, common, *source, sender, describe(*source, source_options));
 }
 
 }  // namespace limbcast

@@ -26,12 +26,17 @@ struct SourceProcessOptions {
   std::string truth_channel = "GROUND_TRUTH";
 };
 
-/// Declares them; `second_key` is the option for the second camera, e.g. "source-right".
+/// Declares those of a recording and its playback: sensor, log, rate, loop, times, gravity.
+void declare_playback(config::Section& section, SourceProcessOptions& options);
+/// Declares all; `second_key` is the option for the second camera, e.g. "source-right".
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key);
 
 /// Throws config::UsageError unless source and, for all but a log, calibration are given.
 void require_input(const SourceProcessOptions& options, const std::string& program);
+
+/// Throws config::UsageError for a log that would never end.
+void require_end(const SourceProcessOptions& options);
 
 /// Mounting as the options tell it. Throws config::UsageError for a `down` that is no unit vector.
 Mounting mounting_of(const SourceProcessOptions& options);
@@ -74,6 +79,9 @@ class Outlet {
 
 /// Returns when `due` has come or the program is told to end; the module's status goes on.
 void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module);
+
+/// Puts what a live source counts into the status.
+void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module);
 
 /// Sends one frame with what belongs to it.
 using SendFrame = std::function<void(Outlet&, const FramePair&)>;

@@ -28,8 +28,8 @@ bool is_device(const std::string& source) { return starts_with(source, "/dev/");
 
 class VideoReader : public FrameReader {
  public:
-  explicit VideoReader(cv::VideoCapture capture)
-      : capture_(std::move(capture)), has_driver_stamp_(capture_.getBackendName() == "V4L2") {}
+  explicit VideoReader(const cv::VideoCapture& capture)
+      : capture_(capture), has_driver_stamp_(capture_.getBackendName() == "V4L2") {}
 
   std::optional<CapturedFrame> read() override {
     CapturedFrame frame;
