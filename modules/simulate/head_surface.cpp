@@ -84,9 +84,9 @@ void add_hat(const Head& head, const Clothes& clothes, SurfaceBuilder& builder) 
   if (clothes.hat == Hat::kNone) return;
   head.ellipsoid(builder, {0, 0.022, -0.002}, {0.050, 0.042, 0.060});
   if (clothes.hat == Hat::kCap) {
-    head.ellipsoid(builder, {0, 0.018, 0.066}, {0.040, 0.004, 0.042});
+    head.ellipsoid(builder, {0, 0.018, 0.066}, {0.040, 0.008, 0.042});
   } else if (clothes.hat == Hat::kBrim) {
-    head.ellipsoid(builder, {0, 0.018, 0.0}, {0.095, 0.005, 0.100});
+    head.ellipsoid(builder, {0, 0.018, 0.0}, {0.095, 0.010, 0.100});
   }
 }
 

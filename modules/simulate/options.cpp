@@ -1,8 +1,21 @@
 #include "modules/simulate/options.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace limbcast::simulate {
+
+namespace {
+
+std::vector<std::string> posture_choices() {
+  std::vector<std::string> choices = natural_posture_names();
+  // "any" is there as well: arms that go anywhere. For the option it means any posture.
+  choices.erase(std::remove(choices.begin(), choices.end(), "any"), choices.end());
+  choices.insert(choices.begin(), "any");
+  return choices;
+}
+
+}  // namespace
 
 void declare(config::Section& section, SimulateOptions& options) {
   SimulatorParams& params = options.params;
@@ -23,6 +36,11 @@ void declare(config::Section& section, SimulateOptions& options) {
       "a pair of pictures, the depth that matching gives, a depth camera, a laser range finder");
   section.add_choice("noise", options.noise, {"varied", "fixed"},
                      "another device with every frame, or a mean one");
+  section.add_choice("posture", options.posture, posture_choices(),
+                     "of everybody in the set general");
+  section.add_choice("motion", options.motion,
+                     {"any", "walk-point", "wave", "point-around", "sit-down"},
+                     "of everybody in the set sequence");
   section.add("persons", options.persons, "", "people in a frame, 0 = as the set has it", {0, 8});
   section.add("color", params.color, "pictures for depth cameras too");
   section.add("blind", params.blind, "no masks, labels and true depth");
@@ -65,6 +83,12 @@ SimulatorParams to_params(const SimulateOptions& options) {
       {"stereo-depth", SensorKind::kStereoDepth},
       {"depth", SensorKind::kDepth},
       {"laser", SensorKind::kLaser}};
+  static const std::map<std::string, MotionKind> motions = {
+      {"any", MotionKind::kAny},
+      {"walk-point", MotionKind::kWalkPoint},
+      {"wave", MotionKind::kWave},
+      {"point-around", MotionKind::kPointAround},
+      {"sit-down", MotionKind::kSitDown}};
   SimulatorParams params = options.params;
   if (!options.output.empty() && !options.log.empty()) {
     throw config::UsageError("--output and --log exclude one another: give one of them");
@@ -79,6 +103,8 @@ SimulatorParams to_params(const SimulateOptions& options) {
   params.scenario.set = sets.at(options.set);
   params.sensor = sensors.at(options.sensor);
   params.vary_noise = options.noise == "varied";
+  params.scenario.posture = options.posture == "any" ? "" : options.posture;
+  params.scenario.motion = motions.at(options.motion);
   params.scenario.min_persons = params.scenario.max_persons = options.persons;
   params.laser.min_azimuth_deg = -params.laser.max_azimuth_deg;
   params.laser.min_elevation_deg = -params.laser.max_elevation_deg;

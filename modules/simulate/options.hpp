@@ -14,6 +14,7 @@ struct SimulateOptions {
   std::string set = "pointing";
   std::string sensor = "stereo";
   std::string noise = "varied";
+  std::string posture = "any", motion = "any";
   int frames = 20, first = 0, seed = 1, persons = 0;
   double rate_hz = 10.0;  ///< of live frames
   bool loop = false;

@@ -55,7 +55,8 @@ struct RaycastParams {
   /// Share of the distance that a step goes: folds of cloth are up to 6 mm high and 80 / m steep,
   /// so that distances may be told too long by up to 1 + 0.48.
   float step_share = 0.7F;
-  int max_steps = 160;
+  int max_steps =
+      256;  ///< flat things (a hat's brim) need many: their distances are told far too short
 };
 
 /// Follows every ray to the first thing it meets. The result does not depend on the number of

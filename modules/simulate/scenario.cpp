@@ -13,6 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979;
+constexpr double kEnd_s = 1e3;  // every motion has come to its end
 double radians(double degrees) { return degrees * kPi / 180.0; }
 
 const char* name_of(SetKind set) {
@@ -113,8 +114,9 @@ std::vector<Person> draw_people(Rng& rng, const ScenarioParams& params, const Pi
       person.body = draw_body(own, params.body);
       const bool points =
           params.set == SetKind::kPointing || (params.set == SetKind::kMulti && own.chance(0.35));
-      person.posture = points ? draw_pointing(own, person.body, params.pointing)
-                              : draw_natural(own, person.body);
+      person.posture = points                   ? draw_pointing(own, person.body, params.pointing)
+                       : params.posture.empty() ? draw_natural(own, person.body)
+                                                : draw_posture(own, person.body, params.posture);
       person.place.yaw_rad = draw_yaw(own);
       if (!find_place(own, params, camera, sensor_from_world, persons, person)) continue;
       persons.push_back(person);
@@ -124,35 +126,33 @@ std::vector<Person> draw_people(Rng& rng, const ScenarioParams& params, const Pi
   return persons;
 }
 
-/// The moment `seconds` of somebody who walks through the view, stops and points.
-Person sequence_person(Rng rng, const ScenarioParams& params, double seconds) {
-  constexpr double kWalk = 3.0;  // [s]
-  constexpr double kRaise = 0.7;
-  Person person;
-  person.body = draw_body(rng, params.body);
-  Rng pointing_rng = rng.derive(1);
-  const Posture end = draw_pointing(pointing_rng, person.body, params.pointing);
-  const double speed = 0.45 * person.body.stature_m;  // [m/s]
-  const double yaw = radians(rng.uniform(-60, 60));
-  const double walked = speed * std::min(seconds, kWalk);
-  person.place = {-0.3 + std::sin(yaw) * (walked - 0.6 * speed * kWalk) * -1.0,
-                  3.2 - std::cos(yaw) * (walked - 0.5 * speed * kWalk), yaw};
-  const double step_m = 0.41 * person.body.stature_m;
-  const Posture walk = walking(person.body, kPi * walked / step_m);
-  const double share = std::clamp((seconds - kWalk) / kRaise, 0.0, 1.0);
-  const double smooth = share * share * (3.0 - 2.0 * share);
-  person.posture = share < 1.0 ? walk : end;
-  const auto blend = [smooth](const Vector3d& a, const Vector3d& b) {
-    return Vector3d(((1.0 - smooth) * a.normalized() + smooth * b.normalized()).normalized());
-  };
-  for (int side = 0; side < 2; ++side) {
-    person.posture.arms[side].upper = blend(walk.arms[side].upper, end.arms[side].upper);
-    person.posture.arms[side].fore = blend(walk.arms[side].fore, end.arms[side].fore);
-    person.posture.legs[side].thigh = blend(walk.legs[side].thigh, end.legs[side].thigh);
-    person.posture.legs[side].shank = blend(walk.legs[side].shank, end.legs[side].shank);
+/// People who move, apart from one another; in furnishing they are where they end.
+std::vector<Motion> draw_motions(const Rng& base, const ScenarioParams& params) {
+  std::vector<Motion> motions;
+  const int count = std::max(1, params.max_persons);
+  for (int i = 0; i < count; ++i) {
+    Rng rng = base.derive(static_cast<std::uint64_t>(i));
+    const BodyShape body = draw_body(rng, params.body);
+    const double yaw = radians(rng.uniform(-60, 60));
+    // A walker comes about 2 m nearer.
+    const double z = rng.uniform(0.6, 0.9) * params.max_distance_m;
+    const double x = (i - 0.5 * (count - 1)) * 0.9 + rng.normal(0.0, 0.1);
+    motions.emplace_back(params.motion, body, Place{x, z, yaw}, params.pointing, rng.derive(1));
   }
-  person.skeleton = make_skeleton(person.body, person.posture, person.place);
-  return person;
+  return motions;
+}
+
+std::vector<Person> people_at(const std::vector<Motion>& motions, double seconds) {
+  std::vector<Person> persons;
+  for (const Motion& motion : motions) {
+    Person person;
+    person.body = motion.body();
+    person.posture = motion.posture(seconds);
+    person.place = motion.place(seconds);
+    person.skeleton = make_skeleton(person.body, person.posture, person.place);
+    persons.push_back(person);
+  }
+  return persons;
 }
 
 void furnish(SceneBuilder& scene, Rng& rng, const ScenarioParams& params,
@@ -195,12 +195,19 @@ Scenario draw_scenario(const ScenarioParams& params, const PinholeCamera& camera
   scenario.utime = 1'780'000'000'000'000 +
                    static_cast<std::int64_t>(seed % 10000) * 86'400'000'000 +
                    std::llround(seconds * 1e6);
-  scenario.persons = moving ? std::vector<Person>{sequence_person(rng.derive(7), params, seconds)}
-                            : draw_people(rng, params, camera, sensor_from_world);
+  std::vector<Person> furnished_for;
+  if (moving) {
+    const std::vector<Motion> motions = draw_motions(rng.derive(7), params);
+    scenario.persons = people_at(motions, seconds);
+    furnished_for = people_at(motions, kEnd_s);
+  } else {
+    scenario.persons = draw_people(rng, params, camera, sensor_from_world);
+    furnished_for = scenario.persons;
+  }
 
   SceneBuilder scene(rng.derive(8));
   Rng furniture = rng.derive(9);
-  furnish(scene, furniture, params, scenario.persons);
+  furnish(scene, furniture, params, furnished_for);
   scenario.world = std::move(scene.world());
   for (Solid& solid : scenario.world.solids) {
     solid.frame_from_solid = sensor_from_world.cast<float>() * solid.frame_from_solid;

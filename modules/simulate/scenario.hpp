@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/camera/pinhole_camera.hpp"
+#include "modules/simulate/motion.hpp"
 #include "modules/simulate/postures.hpp"
 #include "modules/simulate/scene.hpp"
 
@@ -23,7 +24,10 @@ struct ScenarioParams {
   double cut_share = 0.15;      ///< of people who may stand partly out of the image
   double min_camera_height_m = 0.9, max_camera_height_m = 1.6;
   double pitch_sigma_deg = 7.0, roll_sigma_deg = 1.0;  ///< of the camera
+  MotionKind motion = MotionKind::kAny;                ///< of a sequence
   double frame_rate_hz = 10.0;                         ///< of a sequence
+  std::string
+      posture;  ///< of everybody in the general set, a name of natural_posture_names; empty = any
   BodyParams body;
   PointingParams pointing;
 };

@@ -119,7 +119,7 @@ void SceneBuilder::coat_stand(double x, double z) {
     builder.as(Part::kNone, 1);
     builder.ellipsoid(hook + Vector3d(0, 0.1, 0), Eigen::Matrix3d::Identity(), {0.09, 0.06, 0.1});
     builder.ellipsoid(hook + Vector3d(0, 0.07, 0), Eigen::Matrix3d::Identity(),
-                      {0.16, 0.012, 0.17});
+                      {0.16, 0.018, 0.17});
   }
   world_.surfaces.push_back(std::move(builder).build(0));
 }

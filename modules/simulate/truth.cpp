@@ -110,7 +110,20 @@ json rounded(const Vector3d& v, double unit) {
 json metres(const Vector3d& v) { return rounded(v, 1e-4); }
 json direction(const Vector3d& v) { return rounded(v.normalized(), 1e-5); }
 
-json pointing_json(const Person& person, const Visibility& seen) {
+/// What the line from eye to fingertip meets: there the person points, if it is a thing.
+json target_json(const Scenario& scenario, const Person& person) {
+  const Vector3d& fingertip = person.skeleton.fingertip[person.posture.pointing_side];
+  const Eigen::Vector3f towards = (fingertip - person.skeleton.eye).normalized().cast<float>();
+  RayGrid ray;
+  ray.width = ray.height = 1;
+  ray.origin = fingertip.cast<float>() + 0.03F * towards;  // out of the finger
+  ray.direction = [towards](int, int) { return towards; };
+  const Hit hit = raycast(scenario.world, ray).at(0, 0);
+  if (hit.solid < 0) return nullptr;
+  return metres((ray.origin + hit.range_m * towards).cast<double>());
+}
+
+json pointing_json(const Scenario& scenario, const Person& person, const Visibility& seen) {
   const int side = person.posture.pointing_side;
   if (side < 0) return nullptr;
   const Skeleton& skeleton = person.skeleton;
@@ -123,7 +136,7 @@ json pointing_json(const Person& person, const Visibility& seen) {
           {"direction_eye_fingertip", direction(skeleton.fingertip[side] - skeleton.eye)},
           {"eye", metres(skeleton.eye)},
           {"fingertip", metres(skeleton.fingertip[side])},
-          {"target", nullptr},
+          {"target", target_json(scenario, person)},
           {"arm_visible", seen.arm_fraction >= kVisibleArmShare},
           {"arm_visible_fraction", std::round(seen.arm_fraction * 100.0) / 100.0}};
 }
@@ -154,7 +167,7 @@ json person_json(const Scenario& scenario, std::size_t i, const FieldOfView& vie
           {"pixels", pixels},
           {"pose", person.posture.name},
           {"body_yaw_deg", std::round(person.place.yaw_rad * 1800.0 / 3.14159265358979) / 10.0},
-          {"pointing", pointing_json(person, seen)}};
+          {"pointing", pointing_json(scenario, person, seen)}};
 }
 
 }  // namespace

@@ -84,19 +84,6 @@ TEST(SimulateFrame, ShowsAsManyPeopleAsTheSetHas) {
   }
 }
 
-TEST(SimulateFrame, TheSameBodyWalksThroughASequence) {
-  const SimulatorParams params = small_params(SetKind::kSequence, SensorKind::kDepth);
-  const Scenario first = draw_scenario(params.scenario, params.camera, 3, 0);
-  const Scenario next = draw_scenario(params.scenario, params.camera, 3, 1);
-  const double moved =
-      (next.persons[0].skeleton[Joint::kPelvis] - first.persons[0].skeleton[Joint::kPelvis]).norm();
-
-  EXPECT_EQ(first.persons[0].body.stature_m, next.persons[0].body.stature_m);
-  EXPECT_GT(moved, 0.02);
-  EXPECT_LT(moved, 0.15);
-  EXPECT_EQ(next.utime - first.utime, 100000);
-}
-
 TEST(Visibility, ShowsAllJointsOfSomebodyWithRaisedArms) {
   const Scenario scenario = lone_person(0.0);
   const Visibility seen = visibility_of(scenario, scenario.persons[0], kWide);
