@@ -84,10 +84,10 @@ ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params
 }
 
 void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {
-  nearest_cones(grid_points_, make_cones_of(body), explained, workspace_);
+  nearest_cones(grid_points_, make_cones_of(body), explained, nullptr, nearest_);
   unexplained_.assign(static_cast<std::size_t>(grid_width_) * grid_height_, 0.0F);
   for (std::size_t i = 0; i < grid_points_.size(); ++i) {
-    const float beyond = workspace_.distance[i] - 0.02F - grid_points_.sigma_m[i];
+    const float beyond = nearest_.distance[i] - 0.02F - grid_points_.sigma_m[i];
     unexplained_[grid_cells_[i]] = std::clamp(beyond / 0.06F, 0.0F, 1.0F);
   }
 }

@@ -36,7 +36,7 @@ class ArmSearch {
   PointColumns grid_points_;        ///< own points on every third pixel
   std::vector<int> grid_cells_;     ///< their cells
   std::vector<float> unexplained_;  ///< by cell, 0 to 1
-  Workspace workspace_;
+  NearestCones nearest_;
 };
 
 void set_arm(BodyState& body, int side, const ArmPosture& posture);

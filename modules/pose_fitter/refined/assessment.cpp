@@ -18,12 +18,12 @@ Real angle(const Vec3& a, const Vec3& b) {
 
 /// Weight of the points that lie on forearm and hand.
 std::array<Real, 2> lower_arm_support(const BodyState& body, const PointColumns& points) {
-  Workspace workspace;
-  nearest_cones(points, make_cones_of(body), kAllParts, workspace);
+  NearestCones nearest;
+  nearest_cones(points, make_cones_of(body), kAllParts, nullptr, nearest);
   std::array<Real, 2> support{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const ConeSpec& cone = cone_specs()[workspace.cone[i]];
-    if (!cone.lower_arm || std::abs(workspace.distance[i]) > 0.05F + 2.0F * points.sigma_m[i])
+    const ConeSpec& cone = cone_specs()[nearest.cone[i]];
+    if (!cone.lower_arm || std::abs(nearest.distance[i]) > 0.05F + 2.0F * points.sigma_m[i])
       continue;
     support[cone.part == Part::kLeftArm ? 0 : 1] += points.weight[i];
   }

@@ -61,8 +61,8 @@ const std::array<ConeSpec, kConeCount>& cone_specs() {
   return cones;
 }
 
-const std::array<Offset, 10>& body_offsets() {
-  static const std::array<Offset, 10> offsets = {{
+const std::array<Offset, 9>& body_offsets() {
+  static const std::array<Offset, 9> offsets = {{
       {kHead, kNeck, false, {0.0, 0.075, 0.016}, {0.012, 0.006, 0.012}},
       {kChest, kNeck, false, {0.0, -0.161, 0.017}, {0.005, 0.006, 0.006}},
       {kPelvis, kNeck, false, {0.0, -0.3465, 0.0}, {0.008, 0.010, 0.008}},
@@ -72,8 +72,6 @@ const std::array<Offset, 10>& body_offsets() {
       {kAnkle, kKnee, true, {0.005, -0.245, -0.03}, {0.08, 0.15, 0.12}},
       {kElbow, kShoulder, true, {0.03, -0.12, 0.0}, {0.28, 0.28, 0.28}},
       {kWrist, kElbow, true, {0.0, -0.07, 0.05}, {0.336, 0.336, 0.336}},
-      // The mean is shoulder_offset(); this row holds its spread.
-      {kShoulder, kNeck, true, {0.0985, -0.0602, 0.0074}, {0.006, 0.0025, 0.012}},
   }};
   return offsets;
 }
@@ -97,5 +95,7 @@ Eigen::Vector3d shoulder_offset(const Eigen::Vector3d& upper_arm) {
           -0.0602 + 0.0009 * left + 0.0225 * up + 0.0022 * forward,
           0.0074 - 0.0216 * left - 0.0068 * up + 0.0079 * forward};
 }
+
+Eigen::Vector3d shoulder_sigma() { return {0.006, 0.0025, 0.012}; }
 
 }  // namespace limbcast::pose_fitter::refined

@@ -81,7 +81,7 @@ struct Offset {
 };
 /// Means of ANSUR-like adult proportions, found again on the tuning half; limbs have wide spreads:
 /// rest pose.
-const std::array<Offset, 10>& body_offsets();
+const std::array<Offset, 9>& body_offsets();
 
 struct Bone {
   int from, to;  ///< left side
@@ -92,5 +92,6 @@ const std::array<Bone, 5>& bones();
 /// Where a shoulder stands against the neck when the upper arm points along `upper_arm` (unit, body
 /// frame of the left side): the scapula follows the arm.
 Eigen::Vector3d shoulder_offset(const Eigen::Vector3d& upper_arm);
+Eigen::Vector3d shoulder_sigma();
 
 }  // namespace limbcast::pose_fitter::refined

@@ -10,11 +10,19 @@
 
 namespace limbcast::pose_fitter::refined {
 
+/// Nearest cone of each point: signed distance to its surface [m], place on its axis (0 to 1), its index.
+struct NearestCones {
+  std::vector<float> distance, place;
+  std::vector<std::int32_t> cone;
+};
+
 /// Which parts of the body are fitted to which points, how closely.
 struct FitStage {
   const PointColumns* points;
   unsigned parts;
   Real surface_sigma_m;
+  /// The other parts, which stay where they are; null: there are none.
+  const NearestCones* fixed = nullptr;
 };
 
 /// What the terms of the cost add up to, for looking at.
@@ -25,8 +33,7 @@ struct CostTerms {
 
 /// Buffers of one evaluation, kept to spare allocation.
 struct Workspace {
-  std::vector<float> distance, place;
-  std::vector<std::int32_t> cone;
+  NearestCones nearest;
   ConeEquations cones;
 };
 
@@ -43,10 +50,9 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
 void add_prior_terms(const BodyState& body, const Cones& cones, const Observation& observation,
                      unsigned parts, const RefinedParams& params, NormalEquations& equations);
 
-/// Nearest cone of each point: signed distance to its surface [m], place on its axis (0 to 1), its
-/// index.
+/// Looks for the nearest among the cones of `parts` and what `fixed` holds (may be null).
 void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,
-                   Workspace& workspace);
+                   const NearestCones* fixed, NearestCones& nearest);
 
 /// The whole cost; its normal equations too when `derivatives` are wanted.
 CostTerms evaluate(const BodyState& body, const Observation& observation, const FitStage& stage,

@@ -9,17 +9,21 @@ namespace limbcast::pose_fitter::refined {
 // The inner loop has no branches and no calls, so that the compiler turns it into vector
 // instructions (CMakeLists.txt allows it to ignore errno and traps of the square root).
 void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,
-                   Workspace& workspace) {
+                   const NearestCones* fixed, NearestCones& nearest) {
   const std::size_t count = points.size();
-  workspace.distance.assign(count, std::numeric_limits<float>::max());
-  workspace.place.assign(count, 0.0F);
-  workspace.cone.assign(count, 0);
+  if (fixed != nullptr) {
+    nearest = *fixed;
+  } else {
+    nearest.distance.assign(count, std::numeric_limits<float>::max());
+    nearest.place.assign(count, 0.0F);
+    nearest.cone.assign(count, 0);
+  }
   const float* __restrict px = points.x.data();
   const float* __restrict py = points.y.data();
   const float* __restrict pz = points.z.data();
-  float* __restrict distance = workspace.distance.data();
-  float* __restrict place = workspace.place.data();
-  std::int32_t* __restrict index = workspace.cone.data();
+  float* __restrict distance = nearest.distance.data();
+  float* __restrict place = nearest.place.data();
+  std::int32_t* __restrict index = nearest.cone.data();
   for (std::int32_t c = 0; c < kConeCount; ++c) {
     if ((bit(cone_specs()[c].part) & parts) == 0) continue;
     const Eigen::Vector3f from = cones[c].from.cast<float>(), axis = cones[c].axis.cast<float>();

@@ -8,15 +8,43 @@ namespace limbcast::pose_fitter::refined {
 namespace {
 
 /// Steps of the solver at each stage: most of the gain comes in the first ones.
-constexpr int kTrunkIterations = 8, kArmIterations = 8, kFinalIterations = 15;
-constexpr int kFlipIterations = 12, kLegIterations = 8, kMoveCoarseIterations = 6,
-              kMoveIterations = 10;
+constexpr int kTrunkIterations = 8, kArmIterations = 6, kCombinedIterations = 6;
+constexpr int kFinalIterations = 15, kFlipIterations = 12, kLegIterations = 8, kMoveIterations = 10;
 /// A round of moves that wins less than this share is the last.
 constexpr Real kLeastRoundGain = 0.01;
 
 void sort_by_cost(std::vector<PoseCandidate>& poses) {
   std::stable_sort(poses.begin(), poses.end(),
                    [](const PoseCandidate& a, const PoseCandidate& b) { return a.cost < b.cost; });
+}
+
+/// Height of the head's centre over the floor, in statures.
+constexpr Real kStandingHeadHeight = 0.950, kSittingHeadHeight = 0.724;
+constexpr Real kSmallestStatureM = 0.9, kTallestStatureM = 2.05;
+
+/// First guess of the logarithm of stature: from the head's height where the floor is known.
+Real log_stature_start(const Observation& observation, const RefinedParams& params, Legs legs) {
+  Real stature_m = params.mean_stature_m;
+  if (observation.floor_m) {
+    const Real head_m = observation.up.dot(observation.head_start) + *observation.floor_m;
+    const Real told_m = head_m / (legs == Legs::kStanding ? kStandingHeadHeight : kSittingHeadHeight);
+    stature_m = std::clamp(told_m, kSmallestStatureM, kTallestStatureM);
+  }
+  return std::log(stature_m / kReferenceStatureM);
+}
+
+/// Arms nearer than this at elbow and wrist end in the same minimum [m].
+constexpr Real kSameArmM = 0.07;
+
+bool same_arm(const BodyState& a, const BodyState& b, int side) {
+  return (a.points[kWrist + side] - b.points[kWrist + side]).norm() < kSameArmM &&
+         (a.points[kElbow + side] - b.points[kElbow + side]).norm() < kSameArmM;
+}
+
+void copy_arm(const BodyState& from, int side, BodyState& to) {
+  for (const int point : {kShoulder, kElbow, kWrist, kHand}) {
+    to.points[point + side] = from.points[point + side];
+  }
 }
 
 bool alike(const BodyState& a, const BodyState& b) {
@@ -40,12 +68,12 @@ FitStage PoseSearch::final_stage() const {
 std::vector<PoseCandidate> PoseSearch::trunk_starts() {
   const FitStage stage{&observation_.coarse, kWithoutArms, params_.search_surface_sigma_m};
   std::vector<PoseCandidate> all;
-  const Real log_stature = std::log(params_.mean_stature_m / kReferenceStatureM);
   for (int k = 0; k < params_.yaw_steps; ++k) {
     for (const Legs legs : {Legs::kStanding, Legs::kSitting}) {
       PoseCandidate pose;
       pose.body = rest_body(observation_.head_start, observation_.up,
-                            2.0 * M_PI * k / params_.yaw_steps, log_stature, legs);
+                            2.0 * M_PI * k / params_.yaw_steps,
+                            log_stature_start(observation_, params_, legs), legs);
       pose.cost = solver_.minimize(pose.body, stage, kTrunkIterations);
       all.push_back(pose);
     }
@@ -70,29 +98,49 @@ std::vector<PoseCandidate> PoseSearch::trunk_starts() {
   return kept;
 }
 
+std::vector<BodyState> PoseSearch::fitted_arms(const BodyState& body, int side, unsigned explained,
+                                               int postures, int count) {
+  NearestCones fixed;
+  nearest_cones(observation_.coarse, make_cones_of(body), explained, nullptr, fixed);
+  const FitStage stage{&observation_.coarse, arm_bit(side), params_.arm_search_surface_sigma_m,
+                       &fixed};
+  std::vector<PoseCandidate> fitted;
+  for (const ArmPosture& posture : arms_.postures(body, side, explained, postures)) {
+    PoseCandidate pose{0.0, body};
+    set_arm(pose.body, side, posture);
+    pose.cost = solver_.minimize(pose.body, stage, kArmIterations);
+    fitted.push_back(pose);
+  }
+  sort_by_cost(fitted);
+  std::vector<BodyState> best;
+  for (const PoseCandidate& pose : fitted) {
+    const bool known = std::any_of(best.begin(), best.end(), [&](const BodyState& other) {
+      return same_arm(pose.body, other, side);
+    });
+    if (!known) best.push_back(pose.body);
+    if (static_cast<int>(best.size()) >= count) break;
+  }
+  return best;
+}
+
 PoseCandidate PoseSearch::with_arms(const BodyState& start) {
   const FitStage coarse{&observation_.coarse, kAllParts, params_.arm_search_surface_sigma_m};
-  std::array<std::vector<ArmPosture>, 2> postures;
+  std::array<std::vector<BodyState>, 2> arms;
   for (int side = 0; side < 2; ++side) {
-    postures[side] = arms_.postures(start, side, kWithoutArms, params_.arm_postures_per_start);
+    arms[side] = fitted_arms(start, side, kWithoutArms, params_.arm_postures_per_start,
+                             params_.arms_combined);
+    if (arms[side].empty()) arms[side].push_back(start);
   }
   PoseCandidate best{1e18, start};
-  int best_left = 0;
-  const auto try_pair = [&](int left, int right) {
-    BodyState body = start;
-    if (left < static_cast<int>(postures[0].size())) set_arm(body, 0, postures[0][left]);
-    if (right < static_cast<int>(postures[1].size())) set_arm(body, 1, postures[1][right]);
-    const Real cost = solver_.minimize(body, coarse, kArmIterations);
-    if (cost < best.cost) {
-      best = {cost, body};
-      best_left = left;
+  for (const BodyState& left : arms[0]) {
+    for (const BodyState& right : arms[1]) {
+      BodyState body = start;
+      copy_arm(left, 0, body);
+      copy_arm(right, 1, body);
+      const Real cost = solver_.minimize(body, coarse, kCombinedIterations);
+      if (cost < best.cost) best = {cost, body};
     }
-  };
-  for (int left = 0; left < std::max<int>(1, static_cast<int>(postures[0].size())); ++left)
-    try_pair(left, 0);
-  const int chosen = best_left;
-  for (int right = 1; right < static_cast<int>(postures[1].size()); ++right)
-    try_pair(chosen, right);
+  }
   best.cost = solver_.minimize(best.body, final_stage(), kFinalIterations);
   return best;
 }
@@ -127,21 +175,12 @@ bool PoseSearch::try_legs(PoseCandidate& pose) {
 }
 
 bool PoseSearch::try_arm(PoseCandidate& pose, int side) {
-  const FitStage coarse{&observation_.coarse, kAllParts, params_.surface_sigma_m};
-  const std::vector<ArmPosture> postures =
-      arms_.postures(pose.body, side, kAllParts & ~arm_bit(side), params_.arm_postures_per_move);
-  PoseCandidate best{1e18, {}};
-  for (const ArmPosture& posture : postures) {
-    if ((posture.wrist - pose.body.points[kWrist + side]).norm() < 0.07 &&
-        (posture.elbow - pose.body.points[kElbow + side]).norm() < 0.07) {
-      continue;
-    }
-    BodyState body = pose.body;
-    set_arm(body, side, posture);
-    const Real cost = solver_.minimize(body, coarse, kMoveCoarseIterations);
-    if (cost < best.cost) best = {cost, body};
+  bool better = false;
+  for (const BodyState& other : fitted_arms(pose.body, side, kAllParts & ~arm_bit(side),
+                                            params_.arm_postures_per_move, params_.arms_combined)) {
+    if (!same_arm(other, pose.body, side)) better |= accept(other, kMoveIterations, pose);
   }
-  return best.cost < 1e17 && accept(best.body, kMoveIterations, pose);
+  return better;
 }
 
 void PoseSearch::move(PoseCandidate& pose) {

@@ -31,6 +31,9 @@ class PoseSearch {
   bool try_flip(PoseCandidate& pose);
   bool try_legs(PoseCandidate& pose);
   bool try_arm(PoseCandidate& pose, int side);
+  /// The best `count` arms of `side` after fitting the arm alone to what the `explained` parts leave.
+  std::vector<BodyState> fitted_arms(const BodyState& body, int side, unsigned explained,
+                                     int postures, int count);
   bool accept(BodyState body, int iterations, PoseCandidate& pose);
 
   const Observation& observation_;

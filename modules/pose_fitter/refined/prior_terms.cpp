@@ -11,10 +11,14 @@ namespace {
 constexpr Real kUprightSigma = 0.12;         // sine of the trunk's lean to the side
 constexpr Real kUprightForwardSigma = 0.18;  // and to the front
 constexpr Real kLogGirthSigma = 0.10;
+constexpr Real kStatureLimitSigmas = 3.0;
 constexpr Real kHeadStartSigmaM = 0.05;
 constexpr Real kSymmetrySigmaM = 0.006;
 constexpr Real kHandSigma = 0.012;
 constexpr Real kPenetrationSigmaM = 0.02;
+/// Ankles of who stands or sits are this high over the floor, no lower; who walks or climbs lifts one.
+constexpr Real kAnkleHeight = 0.046, kAnkleBelowSigma = 0.012, kAnkleAboveSigma = 0.020;
+constexpr Real kAnkleLimitSigmas = 2.0;
 
 class Priors {
  public:
@@ -172,6 +176,20 @@ class Priors {
     equations_.add_residual(gap, kPenetrationSigmaM);
   }
 
+  /// Feet are not in the ground, most often on it.
+  void ground(int side, const Vec3& up, Real floor_m) {
+    const int ankle = kAnkle + side;
+    const Real above = up.dot(body_.points[ankle]) + floor_m - kAnkleHeight * stature_;
+    equations_.start_row();
+    equations_.derivative_of_point(ankle, up);
+    equations_.derivative(kLogStature, -kAnkleHeight * stature_);
+    if (above < 0.0) {
+      equations_.add_residual(above, kAnkleBelowSigma * stature_);
+    } else {
+      equations_.add_robust_residual(above, kAnkleAboveSigma * stature_, kAnkleLimitSigmas);
+    }
+  }
+
   /// The trunk stands along gravity, less surely so to the front.
   void upright(const Vec3& up) {
     const Vec3 local = body_.rotation.transpose() * up;
@@ -185,10 +203,25 @@ class Priors {
     equations_.add_residual(local.z(), kUprightForwardSigma);
   }
 
-  void scalar(Unknown unknown, Real residual, Real sigma) {
+  void head(const Vec3& start) {
+    for (int axis = 0; axis < 3; ++axis) {
+      equations_.start_row();
+      equations_.derivative(3 * kHead + axis, 1.0);
+      equations_.add_residual(body_.points[kHead][axis] - start[axis], kHeadStartSigmaM);
+    }
+  }
+
+  void log_girth() {
     equations_.start_row();
-    equations_.derivative(unknown, 1.0);
-    equations_.add_residual(residual, sigma);
+    equations_.derivative(kLogGirth, 1.0);
+    equations_.add_residual(body_.log_girth, kLogGirthSigma);
+  }
+
+  /// Most people are adults; a child is no impossible one.
+  void log_stature(Real mean, Real sigma) {
+    equations_.start_row();
+    equations_.derivative(kLogStature, 1.0);
+    equations_.add_robust_residual(body_.log_stature - mean, sigma, kStatureLimitSigmas);
   }
 
  private:
@@ -204,48 +237,70 @@ class Priors {
   Real stature_;
 };
 
-void add_proportions(const BodyState& body, Priors& priors) {
+bool of_arm(int point) { return (point >= kShoulder && point < kHip) || point == kHand; }
+
+void add_proportions(const BodyState& body, int side, bool arm, Priors& priors) {
   for (const Offset& offset : body_offsets()) {
-    for (int side = 0; side < (offset.both_sides ? 2 : 1); ++side) {
-      Vec3 mean = offset.mean;
-      if (offset.point == kShoulder) {
-        Vec3 arm = body.rotation.transpose() *
-                   (body.points[kElbow + side] - body.points[kShoulder + side]);
-        arm.normalize();
-        arm.x() *= side_sign(side);
-        mean = shoulder_offset(arm);
-      }
-      if (side == 1) mean.x() = -mean.x();
-      // The neck, the pelvis and other middle references have no side.
-      const bool paired = offset.reference >= kShoulder;
-      priors.offset(offset.point + side, paired ? offset.reference + side : offset.reference, mean,
-                    offset.sigma);
-    }
+    if (of_arm(offset.point) != arm || offset.point == kShoulder) continue;
+    if (side == 1 && !offset.both_sides) continue;
+    Vec3 mean = offset.mean;
+    if (side == 1) mean.x() = -mean.x();
+    // The neck, the pelvis and other middle references have no side.
+    const bool paired = offset.reference >= kShoulder;
+    priors.offset(offset.point + (offset.both_sides ? side : 0),
+                  paired ? offset.reference + side : offset.reference, mean, offset.sigma);
   }
   for (const Bone& bone : bones()) {
-    for (int side = 0; side < 2; ++side) {
-      priors.bone(bone.from + side, bone.to + side, bone.length, bone.relative_sigma);
-    }
+    if (of_arm(bone.from) != arm) continue;
+    priors.bone(bone.from + side, bone.to + side, bone.length, bone.relative_sigma);
   }
-  priors.symmetry(kShoulder, kElbow);
-  priors.symmetry(kElbow, kWrist);
-  priors.symmetry(kHip, kKnee);
-  priors.symmetry(kKnee, kAnkle);
 }
 
-void add_joint_limits(unsigned parts, Priors& priors) {
+void add_shoulder(const BodyState& body, int side, Priors& priors) {
+  Vec3 upper_arm =
+      body.rotation.transpose() * (body.points[kElbow + side] - body.points[kShoulder + side]);
+  upper_arm.normalize();
+  upper_arm.x() *= side_sign(side);
+  Vec3 mean = shoulder_offset(upper_arm);
+  mean.x() *= side_sign(side);
+  priors.offset(kShoulder + side, kNeck, mean, shoulder_sigma());
+}
+
+void add_arm(const BodyState& body, int side, Priors& priors) {
+  add_shoulder(body, side, priors);
+  add_proportions(body, side, true, priors);
+  priors.hand(side);
+  priors.elbow(side);
+}
+
+/// What ties an arm to the rest: the arms' lengths, no limb in another one.
+void add_arm_contacts(unsigned parts, Priors& priors) {
+  priors.symmetry(kShoulder, kElbow);
+  priors.symmetry(kElbow, kWrist);
   for (int side = 0; side < 2; ++side) {
-    priors.hand(side);
-    priors.knee(side);
-    priors.elbow(side);
     if ((parts & arm_bit(side)) == 0) continue;
     for (const int point : {kElbow, kWrist, kHand}) priors.outside_trunk(point + side);
   }
-  if ((parts & kWithoutArms) == parts) return;
   priors.limbs_apart(kElbow, kWrist, kElbow + 1, kWrist + 1);
   priors.limbs_apart(kShoulder, kElbow, kElbow + 1, kWrist + 1);
   priors.limbs_apart(kElbow, kWrist, kShoulder + 1, kElbow + 1);
   priors.limbs_apart(kWrist, kHand, kWrist + 1, kHand + 1);
+}
+
+void add_trunk_and_legs(const BodyState& body, const Observation& observation,
+                        const RefinedParams& params, Priors& priors) {
+  for (int side = 0; side < 2; ++side) {
+    add_proportions(body, side, false, priors);
+    priors.knee(side);
+    if (observation.floor_m) priors.ground(side, observation.up, *observation.floor_m);
+  }
+  priors.symmetry(kHip, kKnee);
+  priors.symmetry(kKnee, kAnkle);
+  priors.log_stature(std::log(params.mean_stature_m / kReferenceStatureM),
+                     params.log_stature_sigma);
+  priors.log_girth();
+  priors.upright(observation.up);
+  priors.head(observation.head_start);
 }
 
 }  // namespace
@@ -253,19 +308,18 @@ void add_joint_limits(unsigned parts, Priors& priors) {
 void add_prior_terms(const BodyState& body, const Cones& cones, const Observation& observation,
                      unsigned parts, const RefinedParams& params, NormalEquations& equations) {
   Priors priors(body, cones, equations);
-  add_proportions(body, priors);
-  add_joint_limits(parts, priors);
-  priors.scalar(kLogStature,
-                body.log_stature - std::log(params.mean_stature_m / kReferenceStatureM),
-                params.log_stature_sigma);
-  priors.scalar(kLogGirth, body.log_girth, kLogGirthSigma);
-  priors.upright(observation.up);
-  for (int axis = 0; axis < 3; ++axis) {
-    equations.start_row();
-    equations.derivative(3 * kHead + axis, 1.0);
-    equations.add_residual(body.points[kHead][axis] - observation.head_start[axis],
-                           kHeadStartSigmaM);
+  const bool trunk = (parts & bit(Part::kTrunk)) != 0;
+  if (trunk) add_trunk_and_legs(body, observation, params, priors);
+  for (int side = 0; side < 2; ++side) {
+    if ((parts & arm_bit(side)) != 0) {
+      add_arm(body, side, priors);
+    } else {
+      // The shoulder belongs to the trunk; where its arm goes is not known yet.
+      priors.offset(kShoulder + side, kNeck, {side_sign(side) * 0.102, -0.0726, 0.0067},
+                    {0.007, 0.016, 0.013});
+    }
   }
+  if ((parts & ~kWithoutArms) != 0) add_arm_contacts(parts, priors);
 }
 
 }  // namespace limbcast::pose_fitter::refined

@@ -29,12 +29,14 @@ struct RefinedParams {
   /// Starts whose arms are searched. Tuned.
   int starts_kept = 3;
   /// Arm postures tried for each arm of a start. Tuned.
-  int arm_postures_per_start = 4;
+  int arm_postures_per_start = 16;
   /// Poses that the moves (flip, arms, legs) try to better, rounds of them, arm postures for each.
   /// Tuned.
   int poses_moved = 2;
   int move_rounds = 3;
-  int arm_postures_per_move = 8;
+  int arm_postures_per_move = 16;
+  /// Fitted arms of each side that are tried together. Tuned.
+  int arms_combined = 2;
   /// Directions on the sphere for the upper arm and the forearm: 90 are 22 degrees apart.
   int arm_directions = 90;
 

@@ -1,8 +1,9 @@
 #include "modules/pose_fitter/refined/solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <utility>
+
+#include "modules/pose_fitter/refined/linear_solver.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -14,12 +15,7 @@ constexpr Real kLongestStepM = 0.25;
 /// Steps that win less than this share of the cost end the descent.
 constexpr Real kLeastGain = 5e-4;
 
-Step damped_step(const NormalEquations& equations, Real damping) {
-  using Matrix = Eigen::Matrix<Real, kUnknownCount, kUnknownCount>;
-  Matrix matrix = equations.hessian;
-  for (int i = 0; i < kUnknownCount; ++i) matrix(i, i) += damping * equations.hessian(i, i) + 1.0;
-  const Eigen::LLT<Eigen::Ref<Matrix>, Eigen::Lower> factor(matrix);
-  Step step = factor.solve(-equations.gradient);
+Step limited(Step step) {
   const Real longest = step.head<3 * kPointCount>().cwiseAbs().maxCoeff();
   if (longest > kLongestStepM) step *= kLongestStepM / longest;
   return step;
@@ -41,9 +37,10 @@ CostTerms Solver::evaluate_at(const BodyState& body, const FitStage& stage,
 
 Real Solver::minimize(BodyState& body, const FitStage& stage, int iterations) {
   evaluate_at(body, stage, *current_);
+  const UnknownSet& unknowns = unknowns_of(stage.parts);
   Real damping = kFirstDamping;
   for (int i = 0; i < iterations; ++i) {
-    const BodyState candidate = moved(body, damped_step(*current_, damping));
+    const BodyState candidate = moved(body, limited(damped_step(*current_, unknowns, damping)));
     evaluate_at(candidate, stage, *trial_);
     if (!(trial_->cost < current_->cost)) {
       damping *= kMoreDamping;
