@@ -73,7 +73,7 @@ ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params
   grid_height_ = (camera.height + kCellPx - 1) / kCellPx;
   for (int v = 0; v < camera.height; v += kCellPx) {
     for (int u = 0; u < camera.width; u += kCellPx) {
-      const float z = observation.surface_m[observation.at(u, v)];
+      const float z = observation.smooth_surface_m(u, v);
       if (z <= 0.0F) continue;
       grid_points_.add(
           camera.back_project(static_cast<float>(u), static_cast<float>(v), z).cast<Real>(), 1.0F,
@@ -81,6 +81,7 @@ ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params
       grid_cells_.push_back(v / kCellPx * grid_width_ + u / kCellPx);
     }
   }
+  grid_points_.pad();
 }
 
 void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {

@@ -40,41 +40,65 @@ const std::array<ConePoints, kConeCount>& points_of_cones() {
   return all;
 }
 
-constexpr int kStatureVariable = 6, kGirthVariable = 7;
+constexpr int kVariables = 8, kStatureVariable = 6, kGirthVariable = 7;
+using Matrix = Eigen::Matrix<Real, kVariables, kVariables>;
+
+Mat3 symmetric(const std::array<float, 6>& sums) {
+  Mat3 matrix;
+  matrix << sums[0], sums[1], sums[2], sums[1], sums[3], sums[4], sums[2], sums[4], sums[5];
+  return matrix;
+}
+
+Vec3 vector(const std::array<float, 3>& sums) { return {sums[0], sums[1], sums[2]}; }
 
 }  // namespace
 
-void ConeEquations::clear() {
-  for (Block& block : blocks_) block.used = false;
-}
+void ConeEquations::clear() { sums_.fill(Sums{}); }
 
-void ConeEquations::add(int cone, Real t, const Vec3& normal, Real radius, Real residual,
-                        Real information) {
-  Block& block = blocks_[cone];
-  if (!block.used) {
-    block.hessian.setZero();
-    block.gradient.setZero();
-    block.used = true;
+void ConeEquations::add(int cone, float t, const Eigen::Vector3f& normal, float radius,
+                        float residual, float information) {
+  Sums& sums = sums_[cone];
+  sums.used = true;
+  const float from = 1.0F - t, x = normal.x(), y = normal.y(), z = normal.z();
+  const std::array<float, 6> normals = {x * x, x * y, x * z, y * y, y * z, z * z};
+  const float weight_from = information * from * from, weight_mixed = information * from * t,
+              weight_to = information * t * t;
+  for (int i = 0; i < 6; ++i) {
+    sums.normals_from[i] += weight_from * normals[i];
+    sums.normals_mixed[i] += weight_mixed * normals[i];
+    sums.normals_to[i] += weight_to * normals[i];
   }
-  Eigen::Matrix<Real, kVariables, 1> row;
-  row << (1.0 - t) * normal, t * normal, -radius,
-      cone_specs()[cone].grows_with_girth ? -radius : 0.0;
-  const Eigen::Matrix<Real, kVariables, 1> weighted = information * row;
-  block.gradient += residual * weighted;
-  block.hessian += weighted * row.transpose();
+  for (int i = 0; i < 3; ++i) {
+    sums.radius_from[i] += information * radius * from * normal[i];
+    sums.radius_to[i] += information * radius * t * normal[i];
+    sums.residual_from[i] += information * residual * from * normal[i];
+    sums.residual_to[i] += information * residual * t * normal[i];
+  }
+  sums.radius2 += information * radius * radius;
+  sums.radius_residual += information * radius * residual;
 }
 
 void ConeEquations::add_to(const BodyState& body, NormalEquations& equations) const {
   using Column = Eigen::Matrix<Real, kVariables, 1>;
   for (int c = 0; c < kConeCount; ++c) {
-    const Block& block = blocks_[c];
-    if (!block.used) continue;
+    const Sums& sums = sums_[c];
+    if (!sums.used) continue;
+    const Real girth = cone_specs()[c].grows_with_girth ? 1.0 : 0.0;
+    Matrix h;
+    h << symmetric(sums.normals_from), symmetric(sums.normals_mixed), -vector(sums.radius_from),
+        -girth * vector(sums.radius_from), symmetric(sums.normals_mixed),
+        symmetric(sums.normals_to), -vector(sums.radius_to), -girth * vector(sums.radius_to),
+        -vector(sums.radius_from).transpose(), -vector(sums.radius_to).transpose(), sums.radius2,
+        girth * sums.radius2, -girth * vector(sums.radius_from).transpose(),
+        -girth * vector(sums.radius_to).transpose(), girth * sums.radius2, girth * sums.radius2;
+    Column gradient;
+    gradient << vector(sums.residual_from), vector(sums.residual_to), -sums.radius_residual,
+        -girth * sums.radius_residual;
     const ConePoints& cone = points_of_cones()[c];
-    const auto& h = block.hessian;
     for (int i = 0; i < cone.count; ++i) {
       const PointWeights& p = cone.points[i];
       equations.gradient.segment<3>(3 * p.point) +=
-          p.in_from * block.gradient.head<3>() + p.in_to * block.gradient.segment<3>(3);
+          p.in_from * gradient.head<3>() + p.in_to * gradient.segment<3>(3);
       for (int j = 0; j < cone.count; ++j) {
         const PointWeights& q = cone.points[j];
         if (q.point > p.point) continue;
@@ -100,7 +124,7 @@ void ConeEquations::add_to(const BodyState& body, NormalEquations& equations) co
     for (int i = 0; i < 4; ++i) {  // turning about the front itself moves nothing
       const int unknown = kLogStature + i;
       const Column product = h * columns[i];
-      equations.gradient[unknown] += columns[i].dot(block.gradient);
+      equations.gradient[unknown] += columns[i].dot(gradient);
       for (int k = 0; k < cone.count; ++k) {
         const PointWeights& p = cone.points[k];
         equations.hessian.block<1, 3>(unknown, 3 * p.point) +=

@@ -10,7 +10,8 @@
 
 namespace limbcast::pose_fitter::refined {
 
-/// Nearest cone of each point: signed distance to its surface [m], place on its axis (0 to 1), its index.
+/// Nearest cone of each point: signed distance to its surface [m], place on its axis (0 to 1), its
+/// index. Columns are padded as those of the points are.
 struct NearestCones {
   std::vector<float> distance, place;
   std::vector<std::int32_t> cone;

@@ -60,8 +60,9 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
                shrink = 1.0 / (1.0 + ratio);
     cost += weight * 0.5 * limit * limit * ratio * shrink;
     if (derivatives) {
-      workspace.cones.add(sample.cone, sample.t, gradient, 0.0, residual,
-                          weight * information * shrink * shrink);
+      workspace.cones.add(sample.cone, static_cast<float>(sample.t), gradient.cast<float>(), 0.0F,
+                          static_cast<float>(residual),
+                          static_cast<float>(weight * information * shrink * shrink));
     }
   };
   for (int c = 0; c < kConeCount; ++c) {

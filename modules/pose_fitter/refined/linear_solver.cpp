@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -27,9 +28,9 @@ UnknownSet make_set(unsigned parts) {
     for (const int point : {kToe, kAnkle, kKnee}) add_point(point + side);
   }
   if (trunk) {
-    for (const int point : {static_cast<int>(kHead), kHip + 0, kHip + 1, static_cast<int>(kChest),
-                            static_cast<int>(kPelvis), kShoulder + 0, kShoulder + 1,
-                            static_cast<int>(kNeck)}) {
+    for (const int point :
+         {static_cast<int>(kHead), kHip + 0, kHip + 1, static_cast<int>(kChest),
+          static_cast<int>(kPelvis), kShoulder + 0, kShoulder + 1, static_cast<int>(kNeck)}) {
       add_point(point);
     }
     for (int i = kLogStature; i < kUnknownCount; ++i) set.unknowns[set.count++] = i;
@@ -37,18 +38,20 @@ UnknownSet make_set(unsigned parts) {
   return set;
 }
 
-/// Four sums side by side: the compiler makes them one vector.
 float dot(const float* a, const float* b, int count) {
-  float s0 = 0.0F, s1 = 0.0F, s2 = 0.0F, s3 = 0.0F;
+  cv::v_float32x4 first = cv::v_setzero_f32(), second = cv::v_setzero_f32();
   int i = 0;
-  for (; i + 4 <= count; i += 4) {
-    s0 += a[i] * b[i];
-    s1 += a[i + 1] * b[i + 1];
-    s2 += a[i + 2] * b[i + 2];
-    s3 += a[i + 3] * b[i + 3];
+  for (; i + 8 <= count; i += 8) {
+    first = cv::v_muladd(cv::v_load(a + i), cv::v_load(b + i), first);
+    second = cv::v_muladd(cv::v_load(a + i + 4), cv::v_load(b + i + 4), second);
   }
-  for (; i < count; ++i) s0 += a[i] * b[i];
-  return (s0 + s2) + (s1 + s3);
+  if (i + 4 <= count) {
+    first = cv::v_muladd(cv::v_load(a + i), cv::v_load(b + i), first);
+    i += 4;
+  }
+  float sum = cv::v_reduce_sum(first + second);
+  for (; i < count; ++i) sum += a[i] * b[i];
+  return sum;
 }
 
 }  // namespace
@@ -81,7 +84,8 @@ Eigen::Matrix<Real, kUnknownCount, 1> damped_step(const NormalEquations& equatio
     }
     // The diagonal is kept inverted.
     row[i] = 1.0F / std::sqrt(std::max(row[i] - dot(row, row, i), 1e-3F));
-    solution[i] = (static_cast<float>(-equations.gradient[a]) - dot(row, solution.data(), i)) * row[i];
+    solution[i] =
+        (static_cast<float>(-equations.gradient[a]) - dot(row, solution.data(), i)) * row[i];
   }
   Eigen::Matrix<Real, kUnknownCount, 1> step;
   step.setZero();

@@ -9,12 +9,13 @@ struct UnknownSet {
   std::array<int, kUnknownCount> unknowns;
   int count = 0;
 };
-/// The unknowns of those parts. A single arm is its points from the shoulder on; with the trunk come size
-/// and rotation.
+/// The unknowns of those parts. A single arm is its points from the shoulder on; with the trunk
+/// come size and rotation.
 const UnknownSet& unknowns_of(unsigned parts);
 
-/// Solves (H + damping * diag(H) + floor) * step = -gradient on the set; other unknowns stay. Single
-/// precision: the damped system is well conditioned, and the descent checks each step by its cost.
+/// Solves (H + damping * diag(H) + floor) * step = -gradient on the set; other unknowns stay.
+/// Single precision: the damped system is well conditioned, and the descent checks each step by its
+/// cost.
 Eigen::Matrix<Real, kUnknownCount, 1> damped_step(const NormalEquations& equations,
                                                   const UnknownSet& set, Real damping);
 

@@ -121,44 +121,12 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
   observation.clearance_px.assign(clearance.begin<float>(), clearance.end<float>());
 }
 
-/// Mean of the inverse depth over a window: stereo's noise is white in disparity.
-void smooth_surface(Observation& observation) {
-  const DepthNoise& noise = observation.noise;
-  if (noise.quadratic_per_m <= 0.0F) return;
-  const int width = observation.camera.width, height = observation.camera.height;
-  std::vector<float> inverse(observation.surface_m.size(), 0.0F);
-  std::transform(observation.surface_m.begin(), observation.surface_m.end(), inverse.begin(),
-                 [](float z) { return z > 0.0F ? 1.0F / z : 0.0F; });
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const float center = inverse[observation.at(u, v)];
-      if (center <= 0.0F) continue;
-      const float limit =
-          kSmoothingSigmas * (noise.quadratic_per_m + noise.constant_m * center * center);
-      float sum = 0.0F;
-      int count = 0;
-      for (int y = std::max(0, v - kSmoothingRadiusPx);
-           y <= std::min(height - 1, v + kSmoothingRadiusPx); ++y) {
-        for (int x = std::max(0, u - kSmoothingRadiusPx);
-             x <= std::min(width - 1, u + kSmoothingRadiusPx); ++x) {
-          const float other = inverse[observation.at(x, y)];
-          if (other > 0.0F && std::abs(other - center) < limit) {
-            sum += other;
-            ++count;
-          }
-        }
-      }
-      observation.surface_m[observation.at(u, v)] = static_cast<float>(count) / sum;
-    }
-  }
-}
-
 PointColumns sampled(const Observation& observation, int step, double reach_m) {
   PointColumns points;
   const PinholeCamera& camera = observation.camera;
   for (int v = 0; v < camera.height; v += step) {
     for (int u = 0; u < camera.width; u += step) {
-      const float z = observation.surface_m[observation.at(u, v)];
+      const float z = observation.smooth_surface_m(u, v);
       if (z <= 0.0F) continue;
       const Vec3 point =
           camera.back_project(static_cast<float>(u), static_cast<float>(v), z).cast<Real>();
@@ -168,6 +136,7 @@ PointColumns sampled(const Observation& observation, int step, double reach_m) {
       points.add(point, 0.5F * side * side, observation.noise.sigma_m(z));
     }
   }
+  points.pad();
   return points;
 }
 
@@ -179,6 +148,29 @@ void PointColumns::add(const Vec3& point, float point_weight, float point_sigma_
   z.push_back(static_cast<float>(point.z()));
   weight.push_back(point_weight);
   sigma_m.push_back(point_sigma_m);
+}
+
+float Observation::smooth_surface_m(int u, int v) const {
+  const float z = surface_m[at(u, v)];
+  if (z <= 0.0F || noise.quadratic_per_m <= 0.0F) return z;
+  const float limit = kSmoothingSigmas * noise.sigma_m(z);
+  float sum = 0.0F;
+  int count = 0;
+  for (int y = std::max(0, v - kSmoothingRadiusPx);
+       y <= std::min(camera.height - 1, v + kSmoothingRadiusPx); ++y) {
+    for (int x = std::max(0, u - kSmoothingRadiusPx);
+         x <= std::min(camera.width - 1, u + kSmoothingRadiusPx); ++x) {
+      const float other = surface_m[at(x, y)];
+      if (other <= 0.0F || std::abs(other - z) > limit) continue;
+      sum += other;
+      ++count;
+    }
+  }
+  return sum / static_cast<float>(count);
+}
+
+void PointColumns::pad() {
+  for (std::vector<float>* column : {&x, &y, &z}) column->resize((size() + 3) / 4 * 4, 0.0F);
 }
 
 std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
@@ -201,7 +193,6 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   const std::optional<Box> box = person_box(image, head_z, params.min_points, median_z);
   if (!box) return std::nullopt;
   make_grids(image, *box, head_z, median_z, observation);
-  smooth_surface(observation);
   const auto own_pixels = std::count_if(observation.surface_m.begin(), observation.surface_m.end(),
                                         [](float z) { return z > 0.0F; });
   const int step = std::max(1, static_cast<int>(std::lround(std::sqrt(

@@ -9,14 +9,16 @@
 
 namespace limbcast::pose_fitter::refined {
 
-/// Points in columns, so that the compiler works on several at once.
+/// Points in columns, so that several are worked on at once: memory reaches to a whole vector of
+/// four.
 struct PointColumns {
   std::vector<float> x, y, z;  ///< [m]
   std::vector<float> weight;   ///< area that the point stands for, in units of 18 cm^2
   std::vector<float> sigma_m;  ///< of the distance along the ray
 
-  std::size_t size() const { return x.size(); }
+  std::size_t size() const { return weight.size(); }
   void add(const Vec3& point, float point_weight, float point_sigma_m);
+  void pad();  ///< must follow the last add
 };
 
 /// What the sensor saw of one person, made ready for many looks, in the range image's frame.
@@ -45,6 +47,8 @@ struct Observation {
     const int full_u = u + origin_u, full_v = v + origin_v;
     return full_u >= 0 && full_v >= 0 && full_u < full_width && full_v < full_height;
   }
+  /// The surface at a pixel, averaged with its neighbours of about the same depth.
+  float smooth_surface_m(int u, int v) const;
   std::size_t at(int u, int v) const { return static_cast<std::size_t>(v) * camera.width + u; }
 };
 

@@ -27,7 +27,8 @@ Real log_stature_start(const Observation& observation, const RefinedParams& para
   Real stature_m = params.mean_stature_m;
   if (observation.floor_m) {
     const Real head_m = observation.up.dot(observation.head_start) + *observation.floor_m;
-    const Real told_m = head_m / (legs == Legs::kStanding ? kStandingHeadHeight : kSittingHeadHeight);
+    const Real told_m =
+        head_m / (legs == Legs::kStanding ? kStandingHeadHeight : kSittingHeadHeight);
     stature_m = std::clamp(told_m, kSmallestStatureM, kTallestStatureM);
   }
   return std::log(stature_m / kReferenceStatureM);
@@ -71,9 +72,9 @@ std::vector<PoseCandidate> PoseSearch::trunk_starts() {
   for (int k = 0; k < params_.yaw_steps; ++k) {
     for (const Legs legs : {Legs::kStanding, Legs::kSitting}) {
       PoseCandidate pose;
-      pose.body = rest_body(observation_.head_start, observation_.up,
-                            2.0 * M_PI * k / params_.yaw_steps,
-                            log_stature_start(observation_, params_, legs), legs);
+      pose.body =
+          rest_body(observation_.head_start, observation_.up, 2.0 * M_PI * k / params_.yaw_steps,
+                    log_stature_start(observation_, params_, legs), legs);
       pose.cost = solver_.minimize(pose.body, stage, kTrunkIterations);
       all.push_back(pose);
     }
@@ -156,6 +157,13 @@ bool PoseSearch::try_flip(PoseCandidate& pose) {
   return accept(front_back_flipped(pose.body), kFlipIterations, pose);
 }
 
+bool PoseSearch::try_flip_with_other_arms(PoseCandidate& pose) {
+  PoseCandidate flipped = with_arms(front_back_flipped(pose.body));
+  if (flipped.cost >= pose.cost) return false;
+  pose = std::move(flipped);
+  return true;
+}
+
 bool PoseSearch::try_legs(PoseCandidate& pose) {
   BodyState swapped = pose.body;
   for (const int left :
@@ -187,6 +195,7 @@ void PoseSearch::move(PoseCandidate& pose) {
   for (int round = 0; round < params_.move_rounds; ++round) {
     const Real before = pose.cost;
     try_flip(pose);
+    if (round == 0) try_flip_with_other_arms(pose);
     try_legs(pose);
     for (int side = 0; side < 2; ++side) try_arm(pose, side);
     if (before - pose.cost < kLeastRoundGain * before) break;

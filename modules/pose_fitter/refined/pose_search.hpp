@@ -29,9 +29,11 @@ class PoseSearch {
   PoseCandidate with_arms(const BodyState& start);
   void move(PoseCandidate& pose);
   bool try_flip(PoseCandidate& pose);
+  bool try_flip_with_other_arms(PoseCandidate& pose);
   bool try_legs(PoseCandidate& pose);
   bool try_arm(PoseCandidate& pose, int side);
-  /// The best `count` arms of `side` after fitting the arm alone to what the `explained` parts leave.
+  /// The best `count` arms of `side` after fitting the arm alone to what the `explained` parts
+  /// leave.
   std::vector<BodyState> fitted_arms(const BodyState& body, int side, unsigned explained,
                                      int postures, int count);
   bool accept(BodyState body, int iterations, PoseCandidate& pose);

@@ -16,7 +16,8 @@ constexpr Real kHeadStartSigmaM = 0.05;
 constexpr Real kSymmetrySigmaM = 0.006;
 constexpr Real kHandSigma = 0.012;
 constexpr Real kPenetrationSigmaM = 0.02;
-/// Ankles of who stands or sits are this high over the floor, no lower; who walks or climbs lifts one.
+/// Ankles of who stands or sits are this high over the floor, no lower; who walks or climbs lifts
+/// one.
 constexpr Real kAnkleHeight = 0.046, kAnkleBelowSigma = 0.012, kAnkleAboveSigma = 0.020;
 constexpr Real kAnkleLimitSigmas = 2.0;
 
