@@ -96,6 +96,7 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
   observation.full_height = image.full_height;
   cv::Mat may_stand(camera.height, camera.width, CV_8U);
   observation.surface_m.assign(static_cast<std::size_t>(camera.width) * camera.height, 0.0F);
+  observation.seen_m = observation.surface_m;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       std::uint8_t free = 1;
@@ -106,9 +107,11 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
         const float z = image.depth_m[i];
         if (image.labels[i] == PixelLabel::kOther) {
           free = z < median_z - kOccluderGapM;
+          if (free) observation.seen_m[observation.at(u, v)] = z;
         } else if (image.labels[i] == PixelLabel::kPerson &&
                    std::abs(z - head_z) < kMaxDepthFromHeadM) {
           observation.surface_m[observation.at(u, v)] = z;
+          observation.seen_m[observation.at(u, v)] = z;
         }
       }
       may_stand.at<std::uint8_t>(v, u) = free;

@@ -32,6 +32,7 @@ struct Observation {
   /// outside.
   std::vector<float> clearance_px;
   std::vector<float> surface_m;  ///< the person's own surface along the optical axis, 0 = none
+  std::vector<float> seen_m;     ///< the same with whatever stands before the person
   DepthNoise noise;
 
   Vec3 up;                      ///< against gravity

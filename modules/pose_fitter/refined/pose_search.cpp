@@ -153,15 +153,38 @@ bool PoseSearch::accept(BodyState body, int iterations, PoseCandidate& pose) {
   return true;
 }
 
+bool PoseSearch::accept_flipped(PoseCandidate flipped, PoseCandidate& pose) {
+  const bool better = flipped.cost < pose.cost;
+  if (better) std::swap(flipped, pose);
+  rejected_.push_back(std::move(flipped));
+  return better;
+}
+
 bool PoseSearch::try_flip(PoseCandidate& pose) {
-  return accept(front_back_flipped(pose.body), kFlipIterations, pose);
+  PoseCandidate flipped{0.0, front_back_flipped(pose.body)};
+  flipped.cost = solver_.minimize(flipped.body, final_stage(), kFlipIterations);
+  return accept_flipped(std::move(flipped), pose);
 }
 
 bool PoseSearch::try_flip_with_other_arms(PoseCandidate& pose) {
-  PoseCandidate flipped = with_arms(front_back_flipped(pose.body));
-  if (flipped.cost >= pose.cost) return false;
-  pose = std::move(flipped);
-  return true;
+  return accept_flipped(with_arms(front_back_flipped(pose.body)), pose);
+}
+
+std::vector<PoseCandidate> PoseSearch::other_arms(const PoseCandidate& pose, int side) {
+  NearestCones fixed;
+  nearest_cones(observation_.fine, make_cones_of(pose.body), kAllParts & ~arm_bit(side), nullptr,
+                fixed);
+  const FitStage stage{&observation_.fine, arm_bit(side), params_.surface_sigma_m, &fixed};
+  BodyState present = pose.body;
+  const Real present_cost = solver_.minimize(present, stage, kArmIterations);
+  std::vector<PoseCandidate> others;
+  for (const BodyState& start : fitted_arms(pose.body, side, kAllParts & ~arm_bit(side),
+                                            params_.arm_postures_per_move, params_.rival_arms)) {
+    PoseCandidate other{0.0, start};
+    other.cost = solver_.minimize(other.body, stage, kArmIterations) - present_cost;
+    others.push_back(other);
+  }
+  return others;
 }
 
 bool PoseSearch::try_legs(PoseCandidate& pose) {
@@ -208,6 +231,7 @@ std::vector<PoseCandidate> PoseSearch::run() {
   sort_by_cost(poses);
   const int moved_count = std::min<int>(params_.poses_moved, static_cast<int>(poses.size()));
   for (int i = 0; i < moved_count; ++i) move(poses[i]);
+  poses.insert(poses.end(), rejected_.begin(), rejected_.end());
   sort_by_cost(poses);
   return poses;
 }

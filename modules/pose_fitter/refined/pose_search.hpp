@@ -21,6 +21,8 @@ class PoseSearch {
   /// Candidates that were refined on all points, best first; never empty.
   std::vector<PoseCandidate> run();
   Solver& solver() { return solver_; }
+  /// Other arms of a side, everything else staying; cost: what they add to the present arm's.
+  std::vector<PoseCandidate> other_arms(const PoseCandidate& pose, int side);
   /// All points, all parts, the final spread of the surface.
   FitStage final_stage() const;
 
@@ -29,6 +31,7 @@ class PoseSearch {
   PoseCandidate with_arms(const BodyState& start);
   void move(PoseCandidate& pose);
   bool try_flip(PoseCandidate& pose);
+  bool accept_flipped(PoseCandidate flipped, PoseCandidate& pose);
   bool try_flip_with_other_arms(PoseCandidate& pose);
   bool try_legs(PoseCandidate& pose);
   bool try_arm(PoseCandidate& pose, int side);
@@ -41,6 +44,7 @@ class PoseSearch {
   const Observation& observation_;
   const RefinedParams& params_;
   Solver solver_;
+  std::vector<PoseCandidate> rejected_;  ///< bodies facing the other way that lost
   ArmSearch arms_;
 };
 

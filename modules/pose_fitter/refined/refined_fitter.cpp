@@ -23,10 +23,13 @@ std::optional<BodyPose> RefinedFitter::fit(const Segment& segment, const Stamp& 
   if (!observation) return std::nullopt;
   refined::PoseSearch search(*observation, params_);
   const std::vector<refined::PoseCandidate> candidates = search.run();
-  std::optional<BodyPose> pose = refined::assess(candidates, search.solver(), search.final_stage());
+  const refined::Evidence evidence = refined::gather_evidence(candidates, search);
+  std::optional<BodyPose> pose = refined::assess(candidates.front().body, evidence, *observation);
   if (!pose) return std::nullopt;
   rotate(observation->frame_from_image, *pose);
   pose->id = segment.id;
+  pose->error =
+      static_cast<float>(candidates.front().cost / static_cast<double>(observation->fine.size()));
   return pose;
 }
 

@@ -37,6 +37,8 @@ struct RefinedParams {
   int arm_postures_per_move = 16;
   /// Fitted arms of each side that are tried together. Tuned.
   int arms_combined = 2;
+  /// Arms in other directions that the found one is compared with.
+  int rival_arms = 6;
   /// Directions on the sphere for the upper arm and the forearm: 90 are 22 degrees apart.
   int arm_directions = 90;
 

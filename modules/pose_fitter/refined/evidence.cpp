@@ -1,0 +1,178 @@
+#include "modules/pose_fitter/refined/evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+using Covariance = Eigen::Matrix<Real, kUnknownCount, kUnknownCount>;
+
+/// Radii of the body about its points, in statures.
+constexpr std::array<Real, kPointCount> kPointRadius = {
+    0.055, 0.034, 0.075, 0.080, 0.040, 0.040, 0.025, 0.025, 0.017, 0.017,
+    0.065, 0.065, 0.038, 0.038, 0.030, 0.030, 0.020, 0.020, 0.020, 0.020};
+/// A point that lies deeper behind the seen surface than its radius and this is hidden [m].
+constexpr Real kHiddenM = 0.08;
+/// A point's residual within so many sigmas of the surface is explained.
+constexpr Real kExplainedSigmas = 3.0;
+/// An arm whose axis differs by more is another arm: cosine of 20 degrees.
+constexpr Real kOtherArmCosine = 0.94;
+constexpr Real kNoRival = 1e3;
+
+Real angle(const Vec3& a, const Vec3& b) {
+  return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0));
+}
+
+Real worst_sigma(const Mat3& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+}
+
+Covariance posterior(const NormalEquations& equations) {
+  Covariance information = equations.hessian.selfadjointView<Eigen::Lower>();
+  information.diagonal().array() += 1e-6;
+  return Eigen::LLT<Covariance>(information).solve(Covariance::Identity());
+}
+
+Real axis_sigma(const BodyState& body, const Covariance& covariance, int side) {
+  const int from = 3 * (kShoulder + side), to = 3 * (kWrist + side);
+  const Vec3 arm = body.points[kWrist + side] - body.points[kShoulder + side];
+  const Mat3 difference = covariance.block<3, 3>(to, to) + covariance.block<3, 3>(from, from) -
+                          covariance.block<3, 3>(to, from) - covariance.block<3, 3>(from, to);
+  const Vec3 direction = arm.normalized();
+  const Mat3 across = Mat3::Identity() - direction * direction.transpose();
+  return worst_sigma(across * difference * across) / (arm.norm() + 1e-9);
+}
+
+/// Surface the sensor saw near a pixel, the nearest one; 0 where it saw nothing or through.
+Real seen_surface(const Observation& observation, const Vec3& point) {
+  const PinholeCamera& camera = observation.camera;
+  const int u = static_cast<int>(std::lround(camera.fx * point.x() / point.z() + camera.cx));
+  const int v = static_cast<int>(std::lround(camera.fy * point.y() / point.z() + camera.cy));
+  Real nearest = 0.0;
+  for (int y = v - 1; y <= v + 1; ++y) {
+    for (int x = u - 1; x <= u + 1; ++x) {
+      if (!observation.inside(x, y)) continue;
+      const Real z = observation.seen_m[observation.at(x, y)];
+      if (z > 0.0 && (nearest <= 0.0 || z < nearest)) nearest = z;
+    }
+  }
+  return nearest;
+}
+
+bool in_sight(const Observation& observation, const Vec3& point, Real radius) {
+  if (point.z() < 0.1) return false;
+  const PinholeCamera& camera = observation.camera;
+  const int u = static_cast<int>(std::lround(camera.fx * point.x() / point.z() + camera.cx));
+  const int v = static_cast<int>(std::lround(camera.fy * point.y() / point.z() + camera.cy));
+  if (!observation.in_sensor_image(u, v)) return false;
+  const Real surface = seen_surface(observation, point);
+  const Real noise = 2.0 * observation.noise.sigma_m(static_cast<float>(point.z()));
+  return surface <= 0.0 || surface > point.z() - radius - kHiddenM - noise;
+}
+
+/// Share of samples along the arm whose skin is seen where the model has it.
+Real supported_share(const Observation& observation, const Cones& cones, int side) {
+  int samples = 0, supported = 0;
+  for (int c = 0; c < kConeCount; ++c) {
+    if (cone_specs()[c].part != (side == 0 ? Part::kLeftArm : Part::kRightArm)) continue;
+    for (const Real t : {0.25, 0.5, 0.75, 1.0}) {
+      const Vec3 center = cones[c].point(t);
+      ++samples;
+      if (center.z() < 0.1) continue;
+      const PinholeCamera& camera = observation.camera;
+      const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
+      const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
+      if (!observation.inside(u, v)) continue;
+      const Real surface = observation.surface_m[observation.at(u, v)];
+      const Real noise = 2.0 * observation.noise.sigma_m(static_cast<float>(center.z()));
+      if (surface > 0.0 && std::abs(surface - (center.z() - cones[c].radius(t))) < 0.05 + noise)
+        ++supported;
+    }
+  }
+  return samples > 0 ? static_cast<Real>(supported) / samples : 0.0;
+}
+
+Real surface_cost_without(const Cones& cones, const FitStage& stage, unsigned parts,
+                          Real robust_sigmas) {
+  const auto workspace = std::make_unique<Workspace>();
+  const auto equations = std::make_unique<NormalEquations>();
+  equations->clear(false);
+  FitStage reduced = stage;
+  reduced.parts = parts;
+  add_surface_term(cones, reduced, robust_sigmas, *workspace, *equations);
+  return equations->cost;
+}
+
+void weigh_points(const Cones& cones, const FitStage& stage, Evidence& evidence) {
+  NearestCones nearest;
+  const PointColumns& points = *stage.points;
+  nearest_cones(points, cones, kAllParts, nullptr, nearest);
+  Real explained = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    evidence.weight += points.weight[i];
+    const Real sigma = std::hypot(stage.surface_sigma_m, points.sigma_m[i]);
+    if (std::abs(nearest.distance[i]) > kExplainedSigmas * sigma) continue;
+    explained += points.weight[i];
+    if (nearest.cone[i] == kHeadCone) evidence.head_weight += points.weight[i];
+  }
+  evidence.explained_share = explained / std::max(1e-9, evidence.weight);
+}
+
+}  // namespace
+
+Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearch& search) {
+  Evidence evidence;
+  const PoseCandidate& best = candidates.front();
+  const BodyState& body = best.body;
+  Solver& solver = search.solver();
+  const Observation& observation = solver.observation();
+  const FitStage stage = search.final_stage();
+  const Cones cones = make_cones_of(body);
+
+  const auto equations = std::make_unique<NormalEquations>();
+  const CostTerms terms = solver.evaluate_at(body, stage, *equations);
+  evidence.surface_cost = terms.surface;
+  evidence.free_space_cost = terms.free_space;
+  evidence.prior_cost = terms.priors;
+  const Covariance covariance = posterior(*equations);
+  for (int i = 0; i < kPointCount; ++i) {
+    evidence.sigma_m[i] = worst_sigma(covariance.block<3, 3>(3 * i, 3 * i));
+    evidence.in_sight[i] =
+        in_sight(observation, body.points[i], kPointRadius[i] * body.stature_m());
+  }
+  weigh_points(cones, stage, evidence);
+
+  evidence.flip_gap = kNoRival;
+  for (const PoseCandidate& rival : candidates) {
+    if (rival.body.front().dot(body.front()) < 0.0) {
+      evidence.flip_gap = std::min(evidence.flip_gap, rival.cost - best.cost);
+    }
+  }
+  for (int side = 0; side < 2; ++side) {
+    ArmEvidence& arm = evidence.arms[side];
+    const Vec3 upper = body.points[kElbow + side] - body.points[kShoulder + side];
+    const Vec3 fore = body.points[kWrist + side] - body.points[kElbow + side];
+    arm.bend_rad = angle(upper, fore);
+    arm.raise_rad = angle(upper + fore, body.points[kPelvis] - body.points[kNeck]);
+    arm.sigma_rad = axis_sigma(body, covariance, side);
+    arm.support = surface_cost_without(cones, stage, kAllParts & ~arm_bit(side),
+                                       solver.params().robust_sigmas) -
+                  terms.surface;
+    arm.supported_share = supported_share(observation, cones, side);
+    arm.gap = kNoRival;
+    for (const PoseCandidate& rival : search.other_arms(best, side)) {
+      const Vec3 axis = rival.body.points[kWrist + side] - rival.body.points[kShoulder + side];
+      if (axis.normalized().dot((upper + fore).normalized()) < kOtherArmCosine) {
+        arm.gap = std::min(arm.gap, rival.cost);
+      }
+    }
+  }
+  return evidence;
+}
+
+}  // namespace limbcast::pose_fitter::refined
