@@ -14,7 +14,7 @@ constexpr Real kDegree = M_PI / 180.0;
 /// ones; README.md has the figures. Evidence beyond this many units of cost adds nothing.
 constexpr Real kMostEvidence = 30.0;
 /// A joint less sure than this is left out.
-constexpr Real kLeastJointConfidence = 0.35;
+constexpr Real kLeastJointConfidence = 0.15;
 /// A direction less sure than this, or with less to speak for it, is not told.
 constexpr Real kLeastPointingConfidence = 0.65;
 constexpr Real kLeastArmSupport = 3.0, kLeastArmGap = 1.0;
