@@ -172,6 +172,37 @@ void check_partners(const RecordedFrame& frame, const std::string& name, const s
   }
 }
 
+/// Puts the files in the order of their times.
+Recording with_times(const std::map<std::string, RecordedFrame>& files, const std::string& folder,
+                     const RecordingParams& params) {
+  Recording recording;
+  const fs::path timestamps = fs::path(folder) / kTimestampsFile;
+  recording.has_timestamps = fs::exists(timestamps);
+  if (recording.has_timestamps) {
+    for (const FrameTime& time : read_timestamps(timestamps.string())) {
+      const auto found = files.find(time.name);
+      if (found == files.end()) {
+        throw InputError(timestamps.string() + ": names '" + time.name +
+                         "', but there is no such frame; add it or remove the line");
+      }
+      recording.frames.push_back(found->second);
+      recording.frames.back().time = time;
+    }
+    recording.frames_without_time =
+        static_cast<int>(files.size()) - static_cast<int>(recording.frames.size());
+  } else {
+    for (const auto& [name, frame] : files) {
+      const double offset_us = 1e6 * static_cast<double>(recording.frames.size()) / params.rate_hz;
+      recording.frames.push_back(frame);
+      recording.frames.back().time = {name, params.start_utime + std::llround(offset_us), {}};
+    }
+  }
+  if (recording.frames.empty()) {
+    throw InputError(timestamps.string() + ": names no frame; add lines or remove the file");
+  }
+  return recording;
+}
+
 }  // namespace
 
 std::vector<FrameTime> read_timestamps(const std::string& path) {
@@ -190,33 +221,39 @@ Recording find_recording(const std::string& folder, const FilePair& pair,
                      " pictures (jpg or png); give another folder");
   }
   for (const auto& [name, frame] : files) check_partners(frame, name, folder, pair);
+  return with_times(files, folder, params);
+}
 
-  Recording recording;
-  const fs::path timestamps = fs::path(folder) / kTimestampsFile;
-  recording.has_timestamps = fs::exists(timestamps);
-  if (recording.has_timestamps) {
-    for (const FrameTime& time : read_timestamps(timestamps.string())) {
-      const auto found = files.find(time.name);
-      if (found == files.end()) {
-        throw InputError(timestamps.string() + ": names '" + time.name + "', but there is no " +
-                         time.name + "_" + pair.first + " picture; add it or remove the line");
-      }
-      recording.frames.push_back(found->second);
-      recording.frames.back().time = time;
+Recording find_recording_of_files(const std::string& folder,
+                                  const std::vector<std::string>& extensions,
+                                  const RecordingParams& params) {
+  std::map<std::string, RecordedFrame> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) continue;
+    const std::string name = entry.path().stem().string();
+    RecordedFrame& frame = files[name];
+    if (!frame.first_path.empty()) {
+      throw InputError(entry.path().string() + ": the same frame is there as " + frame.first_path +
+                       " too; remove one");
     }
-    recording.frames_without_time =
-        static_cast<int>(files.size()) - static_cast<int>(recording.frames.size());
-  } else {
-    for (const auto& [name, frame] : files) {
-      const double offset_us = 1e6 * static_cast<double>(recording.frames.size()) / params.rate_hz;
-      recording.frames.push_back(frame);
-      recording.frames.back().time = {name, params.start_utime + std::llround(offset_us), {}};
-    }
+    frame.first_path = entry.path().string();
+    const fs::path truth = fs::path(folder) / (name + "_gt.json");
+    if (fs::exists(truth)) frame.truth_path = truth.string();
   }
-  if (recording.frames.empty()) {
-    throw InputError(timestamps.string() + ": names no frame; add lines or remove the file");
+  if (files.empty()) {
+    std::string wanted;
+    for (const std::string& extension : extensions) wanted.append(" ").append(extension);
+    throw InputError(folder + ": has no files of" + wanted + "; give another folder");
   }
-  return recording;
+  return with_times(files, folder, params);
+}
+
+std::int64_t round_duration_us(const Recording& recording, double rate_hz) {
+  const std::vector<RecordedFrame>& frames = recording.frames;
+  if (frames.size() < 2) return std::llround(1e6 / rate_hz);
+  const std::int64_t duration_us = frames.back().time.utime - frames.front().time.utime;
+  return duration_us + duration_us / static_cast<std::int64_t>(frames.size() - 1);
 }
 
 }  // namespace limbcast

@@ -49,4 +49,14 @@ struct RecordingParams {
 Recording find_recording(const std::string& folder, const FilePair& pair,
                          const RecordingParams& params);
 
+/// Same for frames of one file each, NAME.EXT with one of these extensions (".pcd"); `second_path`
+/// is empty.
+Recording find_recording_of_files(const std::string& folder,
+                                  const std::vector<std::string>& extensions,
+                                  const RecordingParams& params);
+
+/// How long a recording lasts that is played again and again, with the mean time between frames
+/// from its last frame to the first of the next round [us]; of a single frame 1 / rate.
+std::int64_t round_duration_us(const Recording& recording, double rate_hz);
+
 }  // namespace limbcast

@@ -149,4 +149,12 @@ BodyPoses read_ground_truth(const std::string& path) {
   return truth;
 }
 
+BodyPoses read_truth_of(const Stamp& frame, const std::string& path) {
+  BodyPoses truth = read_ground_truth(path);
+  const Gravity exact = truth.stamp.gravity;
+  truth.stamp = frame;
+  if (exact.source == GravitySource::kRecording) truth.stamp.gravity = exact;
+  return truth;
+}
+
 }  // namespace limbcast

@@ -29,4 +29,8 @@ namespace limbcast {
 /// Throws InputError: file, person, key, what was found.
 BodyPoses read_ground_truth(const std::string& path);
 
+/// The same as the truth of the frame that has this stamp: it gets the frame's time and sensor, and
+/// the truth's own gravity, which is exact, where it tells one.
+BodyPoses read_truth_of(const Stamp& frame, const std::string& path);
+
 }  // namespace limbcast

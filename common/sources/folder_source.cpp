@@ -5,26 +5,12 @@
 #include "common/human_model/ground_truth_json.hpp"
 
 namespace limbcast {
-namespace {
-
-/// How long the recording lasts, with the time from its last frame to the first of the next round
-/// [us].
-std::int64_t round_duration_us(const std::vector<RecordedFrame>& frames, double rate_hz) {
-  const std::int64_t duration_us = frames.back().time.utime - frames.front().time.utime;
-  if (frames.size() < 2) return static_cast<std::int64_t>(1e6 / rate_hz);
-  return duration_us + duration_us / static_cast<std::int64_t>(frames.size() - 1);
-}
-
-}  // namespace
-
 FolderSource::FolderSource(std::string folder, PairFormat format, const FolderParams& params)
     : folder_(std::move(folder)),
       format_(std::move(format)),
       loop_(params.loop),
       recording_(find_recording(folder_, format_.names, params.recording)) {
-  if (loop_) {
-    round_duration_us_ = round_duration_us(recording_.frames, params.recording.rate_hz);
-  }
+  round_duration_us_ = round_duration_us(recording_, params.recording.rate_hz);
 }
 
 std::optional<FramePair> FolderSource::next() {
@@ -53,11 +39,7 @@ FramePair FolderSource::read(const RecordedFrame& recorded) const {
     frame.stamp.gravity.source = GravitySource::kRecording;
   }
   if (!recorded.truth_path.empty()) {
-    frame.truth = read_ground_truth(recorded.truth_path);
-    // The truth's own gravity is exact; in all else it belongs to the frame that it is for.
-    const Gravity exact = frame.truth->stamp.gravity;
-    frame.truth->stamp = frame.stamp;
-    if (exact.source == GravitySource::kRecording) frame.truth->stamp.gravity = exact;
+    frame.truth = read_truth_of(frame.stamp, recorded.truth_path);
   }
   return frame;
 }
@@ -72,8 +54,14 @@ void FolderSource::step() {
 }
 
 std::string FolderSource::description() const {
-  return folder_ + ": " + std::to_string(recording_.frames.size()) + " frames, times from " +
-         (recording_.has_timestamps ? "timestamps.csv" : "the rate");
+  std::string text = folder_ + ": " + std::to_string(recording_.frames.size()) +
+                     " frames, times from " +
+                     (recording_.has_timestamps ? "timestamps.csv" : "the rate");
+  if (recording_.frames_without_time > 0) {
+    text.append("; left out, as it does not name them: ")
+        .append(std::to_string(recording_.frames_without_time));
+  }
+  return text;
 }
 
 }  // namespace limbcast

@@ -19,7 +19,6 @@ class FolderSource : public PairSource {
   bool ended() const override { return index_ >= recording_.frames.size(); }
   bool live() const override { return false; }
   std::string description() const override;
-  int frames_without_time() const { return recording_.frames_without_time; }
 
  private:
   FramePair read(const RecordedFrame& frame) const;

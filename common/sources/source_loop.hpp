@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/config/log.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/sources/frame_source.hpp"
 #include "common/sources/pacer.hpp"

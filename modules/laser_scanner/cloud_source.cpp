@@ -1,0 +1,185 @@
+#include "modules/laser_scanner/cloud_source.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "common/human_model/ground_truth_json.hpp"
+#include "common/input_error.hpp"
+#include "modules/laser_scanner/axes.hpp"
+#include "modules/laser_scanner/packet_source.hpp"
+#include "modules/laser_scanner/velodyne.hpp"
+
+namespace limbcast::laser_scanner {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kLivePrefix = "velodyne:";
+
+/// What the kinds of sources mean by x, y and z where nobody says otherwise.
+std::string axes_of(const CloudSourceParams& params, const std::string& usual) {
+  return params.axes.empty() ? usual : params.axes;
+}
+
+RawCloud converted(const RawCloud& raw, const Axes& axes, const CloudSourceParams& params) {
+  RawCloud cloud;
+  for (std::size_t i = 0; i < raw.points.size(); ++i) {
+    const Eigen::Vector3f point_m = axes(raw.points[i]);
+    const float range_m = point_m.norm();
+    if (range_m < params.near_limit_m || range_m > params.far_limit_m) continue;
+    cloud.points.push_back(point_m);
+    if (!raw.colors.empty()) cloud.colors.push_back(raw.colors[i]);
+  }
+  return cloud;
+}
+
+Stamp stamp_of(const CloudSourceParams& params, std::int64_t utime, std::int64_t sequence) {
+  Stamp stamp;
+  stamp.utime = utime;
+  stamp.sequence = sequence;
+  stamp.sensor = params.sensor;
+  stamp.frame = params.frame;
+  return stamp;
+}
+
+/// Files of clouds.
+class CloudFiles : public CloudSource {
+ public:
+  CloudFiles(CloudSourceParams params, Recording recording)
+      : params_(std::move(params)), recording_(std::move(recording)) {
+    const std::string first = recording_.frames.front().first_path;
+    const bool is_kitti = fs::path(first).extension() == ".bin";
+    axes_.emplace(axes_of(params_, is_kitti ? "-y,-z,x" : "x,y,z"), params_.unit_m);
+  }
+
+  std::optional<CloudFrame> next() override {
+    if (ended()) return std::nullopt;
+    CloudFrame frame = read(recording_.frames[index_]);
+    ++sequence_;
+    if (++index_ == recording_.frames.size() && params_.loop) {
+      index_ = 0;
+      loop_offset_us_ += round_duration_us(recording_, params_.recording.rate_hz);
+    }
+    return frame;
+  }
+  bool ended() const override { return index_ >= recording_.frames.size(); }
+  bool live() const override { return false; }
+  std::string description() const override {
+    return params_.source + ": " + std::to_string(recording_.frames.size()) +
+           " clouds, times from " + (recording_.has_timestamps ? "timestamps.csv" : "the rate");
+  }
+
+ private:
+  CloudFrame read(const RecordedFrame& recorded) const {
+    CloudFrame frame;
+    frame.stamp = stamp_of(params_, recorded.time.utime + loop_offset_us_, sequence_);
+    frame.cloud = converted(read_cloud_file(recorded.first_path), *axes_, params_);
+    if (recorded.time.down) {
+      frame.stamp.gravity.down = *recorded.time.down;
+      frame.stamp.gravity.source = GravitySource::kRecording;
+    }
+    if (!recorded.truth_path.empty()) frame.truth = read_truth_of(frame.stamp, recorded.truth_path);
+    return frame;
+  }
+
+  CloudSourceParams params_;
+  Recording recording_;
+  std::optional<Axes> axes_;
+  std::size_t index_ = 0;
+  std::int64_t sequence_ = 0, loop_offset_us_ = 0;
+};
+
+/// Packets of a Velodyne, recorded or live, put together to turns.
+template <class Packets>
+class VelodyneSource : public CloudSource {
+ public:
+  /// `argument`: path of the recording, or the port.
+  template <class Argument>
+  VelodyneSource(CloudSourceParams params, const Argument& argument, bool is_live)
+      : params_(std::move(params)),
+        packets_(argument),
+        axes_(axes_of(params_, "x,-z,y"), 1.0),
+        is_live_(is_live) {
+    if (params_.model == "vlp16") decoder_.emplace(VelodyneModel::kVlp16);
+    if (params_.model == "hdl32") decoder_.emplace(VelodyneModel::kHdl32);
+  }
+
+  std::optional<CloudFrame> next() override {
+    while (const std::optional<Packet> packet = packets_.next()) {
+      if (packet->payload.size() != kVelodynePacketBytes) continue;
+      if (!decoder_) decoder_.emplace(model_of(*packet));
+      if (auto sweep = decoder_->add(packet->payload, packet->utime)) {
+        RawCloud raw;
+        raw.points = std::move(sweep->points_m);
+        return CloudFrame{
+            stamp_of(params_, sweep->utime, sequence_++), converted(raw, axes_, params_), {}};
+      }
+    }
+    ended_ = !is_live_;
+    if (ended_ && sequence_ == 0) {
+      throw InputError(params_.source +
+                       ": holds no whole turn of a Velodyne; record for a second or more");
+    }
+    return std::nullopt;
+  }
+  bool ended() const override { return ended_; }
+  bool live() const override { return is_live_; }
+  std::string description() const override {
+    return params_.source + (is_live_ ? ": Velodyne, live" : ": Velodyne, recorded");
+  }
+
+ private:
+  VelodyneModel model_of(const Packet& packet) const {
+    const std::optional<VelodyneModel> model = velodyne_model(packet.payload);
+    if (!model) {
+      throw InputError(params_.source + ": its packets name no known model; give --velodyne-model");
+    }
+    return *model;
+  }
+
+  CloudSourceParams params_;
+  Packets packets_;
+  Axes axes_;
+  bool is_live_;
+  bool ended_ = false;
+  std::optional<VelodyneDecoder> decoder_;
+  std::int64_t sequence_ = 0;
+};
+
+std::unique_ptr<CloudSource> open_velodyne(const CloudSourceParams& params) {
+  const std::string text = params.source.substr(kLivePrefix.size());
+  char* end = nullptr;
+  const long port = text.empty() ? kVelodynePort : std::strtol(text.c_str(), &end, 10);
+  if ((end != nullptr && *end != '\0') || port < 1 || port > 65535) {
+    throw InputError(params.source + ": '" + text + "' is no UDP port; give velodyne:2368");
+  }
+  return std::make_unique<VelodyneSource<UdpReceiver>>(params, static_cast<int>(port), true);
+}
+
+}  // namespace
+
+std::unique_ptr<CloudSource> open_cloud_source(const CloudSourceParams& params) {
+  const std::string& source = params.source;
+  if (source.compare(0, kLivePrefix.size(), kLivePrefix) == 0) return open_velodyne(params);
+  if (fs::is_directory(source)) {
+    return std::make_unique<CloudFiles>(
+        params, find_recording_of_files(source, {".pcd", ".ply", ".bin"}, params.recording));
+  }
+  if (!fs::exists(source)) {
+    throw InputError(source +
+                     ": does not exist; give a folder or file of clouds (.pcd, .ply, .bin), a " +
+                     ".pcap recording, or velodyne:PORT");
+  }
+  if (fs::path(source).extension() == ".pcap") {
+    if (params.loop)
+      throw InputError(source + ": a pcap recording cannot be looped; leave out --loop");
+    return std::make_unique<VelodyneSource<PcapReader>>(params, source, false);
+  }
+  RecordedFrame frame;
+  frame.time = {fs::path(source).stem().string(), params.recording.start_utime, {}};
+  frame.first_path = source;
+  return std::make_unique<CloudFiles>(params, Recording{{frame}, false, 0});
+}
+
+}  // namespace limbcast::laser_scanner

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/camera/recording.hpp"
+#include "common/human_model/body_pose.hpp"
+#include "common/sources/frame_source.hpp"
+#include "modules/laser_scanner/cloud_file.hpp"
+
+namespace limbcast::laser_scanner {
+
+/// One scan, in our axes and metres.
+struct CloudFrame {
+  Stamp stamp;
+  RawCloud cloud;
+  std::optional<BodyPoses> truth;
+};
+using CloudSource = FrameSource<CloudFrame>;
+
+struct CloudSourceParams {
+  std::string source;   ///< folder, cloud file, .pcap, or velodyne:PORT
+  std::string axes;     ///< see Axes; empty: as the kind of source has them
+  double unit_m = 1.0;  ///< metres for one unit of the files
+  std::string model;    ///< of a Velodyne: "vlp16", "hdl32", or "auto", as its packets say
+  double near_limit_m = 0.3, far_limit_m = 30.0;
+  RecordingParams recording;
+  bool loop = false;
+  std::string sensor, frame;  ///< for the stamp
+};
+
+/// Opens a folder of .pcd, .ply or .bin files (with timestamps.csv and NAME_gt.json), one such
+/// file, a pcap recording of a Velodyne, or a Velodyne itself. Throws InputError where that is not
+/// possible.
+std::unique_ptr<CloudSource> open_cloud_source(const CloudSourceParams& params);
+
+}  // namespace limbcast::laser_scanner

@@ -1,0 +1,90 @@
+#include <cmath>
+#include <limbcast/point_cloud_t.hpp>
+
+#include "common/cloud/ground_plane.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/sources/source_loop.hpp"
+#include "modules/laser_scanner/cloud_source.hpp"
+
+namespace limbcast::laser_scanner {
+namespace {
+
+struct Options {
+  SourceProcessOptions process;
+  CloudSourceParams source;
+  double noise_m = 0.02;
+  bool ground_plane = true;
+  std::string cloud_channel = "POINT_CLOUD";
+};
+
+void declare(config::Section& section, Options& options) {
+  options.process.sensor = "laser";
+  options.source.model = "auto";
+  section.add(
+      "source", options.source.source,
+      "folder or file of clouds (.pcd, .ply, .bin), .pcap recording of a Velodyne, velodyne:PORT");
+  section.add(
+      "axes", options.source.axes,
+      "the sensor's axes that point right, down and forward, e.g. -y,-z,x for x forward, z up; "
+      "default: x,y,z for .pcd and .ply, -y,-z,x for .bin, x,-z,y for a Velodyne");
+  section.add("unit-m", options.source.unit_m, "m", "length of one unit in the files", {1e-6, 1e3});
+  section.add_choice("velodyne-model", options.source.model, {"auto", "vlp16", "hdl32"},
+                     "auto: as its packets say");
+  section.add("near-limit-m", options.source.near_limit_m, "m", "leave out nearer points",
+              {0.0, 1e3});
+  section.add("far-limit-m", options.source.far_limit_m, "m", "leave out farther points",
+              {0.0, 1e3});
+  section.add("noise-m", options.noise_m, "m", "standard deviation of the sensor's distances",
+              {0.0, 1.0});
+  section.add("ground-plane", options.ground_plane,
+              "find gravity and the sensor's height from the ground where nobody told them");
+  declare_playback(section, options.process);
+  section.add("cloud-channel", options.cloud_channel, "channel of the clouds");
+}
+
+Cloud make_cloud(CloudFrame& frame, const Options& options) {
+  Cloud cloud;
+  cloud.stamp = frame.stamp;
+  cloud.stamp.depth_noise.constant_m = static_cast<float>(options.noise_m);
+  cloud.points_m = std::move(frame.cloud.points);
+  cloud.colors = std::move(frame.cloud.colors);
+  cloud.width = static_cast<int>(cloud.points_m.size());
+  cloud.height = 1;
+  if (options.ground_plane) complete_gravity(cloud);
+  return cloud;
+}
+
+void run(Options& options, const config::CommonOptions& common) {
+  if (options.source.source.empty()) {
+    throw config::UsageError("--source is missing; see limbcast-laser-scanner --help");
+  }
+  options.process.source.loop = options.source.loop = options.process.source.loop;
+  require_end(options.process);
+  const double rate_hz = options.process.source.rate_hz;
+  options.source.recording = {rate_hz > 0.0 ? rate_hz : kDefaultRate_hz,
+                              std::llround(1e6 * options.process.start_time_s)};
+  options.source.sensor = options.process.sensor;
+  options.source.frame = options.process.sensor + "/scan";
+  FrameSender<CloudFrame> sender(options.process, {}, [&](Outlet& outlet, CloudFrame& frame) {
+    outlet.send_frame(options.cloud_channel, lcm_io::to_message(make_cloud(frame, options)));
+  });
+  const std::unique_ptr<CloudSource> source = open_cloud_source(options.source);
+  run_frames("laser_scanner", options.process, common, *source, sender, source->description());
+}
+
+}  // namespace
+}  // namespace limbcast::laser_scanner
+
+int main(int argc, char** argv) {
+  using namespace limbcast;
+  return config::run_program("limbcast-laser-scanner", [&] {
+    laser_scanner::Options options;
+    config::Section section("laser_scanner");
+    laser_scanner::declare(section, options);
+    config::Parser parser("limbcast-laser-scanner",
+                          "publishes the clouds of a laser range finder, live or recorded");
+    parser.add(section);
+    if (!parser.parse(argc, argv)) return;
+    laser_scanner::run(options, parser.common());
+  });
+}

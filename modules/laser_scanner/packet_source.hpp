@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limbcast::laser_scanner {
+
+/// What a UDP packet carried, and when it came.
+struct Packet {
+  std::int64_t utime = 0;  ///< [us since the Unix epoch]
+  std::vector<std::uint8_t> payload;
+};
+
+/// Reads the UDP packets of a pcap recording (tcpdump, Wireshark; microseconds or nanoseconds;
+/// Ethernet, Linux cooked or raw IPv4).
+class PcapReader {
+ public:
+  /// Throws InputError where the file is no pcap file.
+  explicit PcapReader(const std::string& path);
+  /// The next UDP packet; nothing at the end or where the file is torn.
+  std::optional<Packet> next();
+
+ private:
+  std::uint32_t number_32(const std::uint8_t* bytes) const;
+
+  std::string path_;
+  std::ifstream file_;
+  bool swapped_ = false, nanoseconds_ = false;
+  std::size_t link_bytes_ = 0;
+};
+
+/// Receives UDP packets on a port of this host.
+class UdpReceiver {
+ public:
+  /// Throws InputError where the port cannot be opened.
+  explicit UdpReceiver(int port);
+  ~UdpReceiver();
+  UdpReceiver(const UdpReceiver&) = delete;
+  UdpReceiver& operator=(const UdpReceiver&) = delete;
+  /// The next packet; nothing where none comes within 100 ms.
+  std::optional<Packet> next();
+
+ private:
+  int socket_ = -1;
+};
+
+}  // namespace limbcast::laser_scanner

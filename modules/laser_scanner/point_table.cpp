@@ -1,0 +1,144 @@
+#include "modules/laser_scanner/point_table.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "common/input_error.hpp"
+
+namespace limbcast::laser_scanner {
+namespace {
+
+/// Where a column starts in a row.
+struct Place {
+  std::size_t offset;
+  const Column* column;
+};
+
+std::optional<Place> find(const PointTable& table, const std::vector<std::string>& names) {
+  std::size_t offset = 0;
+  for (const Column& column : table.columns) {
+    for (const std::string& name : names) {
+      if (column.name == name) return Place{offset, &column};
+    }
+    offset += static_cast<std::size_t>(column.size) * static_cast<std::size_t>(column.count);
+  }
+  return std::nullopt;
+}
+
+template <class T>
+T load(const std::uint8_t* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return value;
+}
+
+template <class T>
+void store(double value, std::vector<std::uint8_t>& bytes) {
+  const auto number = static_cast<T>(value);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(&number);
+  bytes.insert(bytes.end(), begin, begin + sizeof(T));
+}
+
+float read_number(const Place& place, const std::uint8_t* row) {
+  const std::uint8_t* bytes = row + place.offset;
+  const Column& column = *place.column;
+  if (column.kind == NumberKind::kFloat) {
+    return column.size == 8 ? static_cast<float>(load<double>(bytes)) : load<float>(bytes);
+  }
+  const bool is_signed = column.kind == NumberKind::kSigned;
+  if (column.size == 1) return is_signed ? load<std::int8_t>(bytes) : load<std::uint8_t>(bytes);
+  if (column.size == 2) return is_signed ? load<std::int16_t>(bytes) : load<std::uint16_t>(bytes);
+  return is_signed ? static_cast<float>(load<std::int32_t>(bytes))
+                   : static_cast<float>(load<std::uint32_t>(bytes));
+}
+
+void store_number(const Column& column, double value, std::vector<std::uint8_t>& bytes) {
+  if (column.kind == NumberKind::kFloat) {
+    column.size == 8 ? store<double>(value, bytes) : store<float>(value, bytes);
+  } else if (column.size == 1) {
+    store<std::uint8_t>(value, bytes);
+  } else if (column.size == 2) {
+    store<std::int16_t>(value, bytes);
+  } else {
+    // Packed colours use all 32 bits.
+    store<std::uint32_t>(value < 0.0 ? value + 4294967296.0 : value, bytes);
+  }
+}
+
+/// Colours are packed as 0xAARRGGBB in one number (PCD) or stand as red, green, blue (PLY).
+class ColorReader {
+ public:
+  explicit ColorReader(const PointTable& table)
+      : packed_(find(table, {"rgb", "rgba"})),
+        red_(find(table, {"red"})),
+        green_(find(table, {"green"})),
+        blue_(find(table, {"blue"})) {
+    if (packed_ && packed_->column->size != 4) packed_.reset();
+    for (const auto& channel : {red_, green_, blue_}) {
+      if (!channel || channel->column->size != 1) has_channels_ = false;
+    }
+  }
+  bool has_color() const { return packed_ || has_channels_; }
+  Bgr read(const std::uint8_t* row) const {
+    if (packed_) return {row[packed_->offset], row[packed_->offset + 1], row[packed_->offset + 2]};
+    return {row[blue_->offset], row[green_->offset], row[red_->offset]};
+  }
+
+ private:
+  std::optional<Place> packed_, red_, green_, blue_;
+  bool has_channels_ = true;
+};
+
+}  // namespace
+
+std::size_t PointTable::row_bytes() const {
+  std::size_t bytes = 0;
+  for (const Column& column : columns) {
+    bytes += static_cast<std::size_t>(column.size) * static_cast<std::size_t>(column.count);
+  }
+  return bytes;
+}
+
+RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>& bytes,
+                        const std::string& where) {
+  const auto x = find(table, {"x"});
+  const auto y = find(table, {"y"});
+  const auto z = find(table, {"z"});
+  if (!x || !y || !z) throw InputError(where + ": has no x, y and z; give a cloud of points");
+  if (bytes.size() / table.row_bytes() < table.num_points) {
+    throw InputError(where + ": is torn, holds fewer points than its header says; copy it again");
+  }
+  const ColorReader color(table);
+  RawCloud cloud;
+  for (std::size_t i = 0; i < table.num_points; ++i) {
+    const std::uint8_t* row = bytes.data() + i * table.row_bytes();
+    const Eigen::Vector3f point{read_number(*x, row), read_number(*y, row), read_number(*z, row)};
+    if (!point.allFinite()) continue;
+    cloud.points.push_back(point);
+    if (color.has_color()) cloud.colors.push_back(color.read(row));
+  }
+  return cloud;
+}
+
+std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::string& text,
+                                       const std::string& where) {
+  std::istringstream words(text);
+  std::vector<std::uint8_t> bytes;
+  std::string word;
+  for (std::size_t i = 0; i < table.num_points; ++i) {
+    for (const Column& column : table.columns) {
+      for (int n = 0; n < column.count; ++n) {
+        if (!(words >> word)) return bytes;
+        char* end = nullptr;
+        const double value = std::strtod(word.c_str(), &end);
+        if (*end != '\0') throw InputError(where + ": '" + word + "' is no number; copy it again");
+        store_number(column, value, bytes);
+      }
+    }
+  }
+  return bytes;
+}
+
+}  // namespace limbcast::laser_scanner

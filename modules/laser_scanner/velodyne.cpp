@@ -1,0 +1,112 @@
+#include "modules/laser_scanner/velodyne.hpp"
+
+#include <cmath>
+
+namespace limbcast::laser_scanner {
+namespace {
+
+constexpr int kBlocks = 12;
+constexpr std::size_t kBlockBytes = 100;
+constexpr int kReturns = 32;
+constexpr std::size_t kReturnBytes = 3;
+constexpr double kDistanceUnit_m = 0.002;
+constexpr double kAzimuthUnit_deg = 0.01;
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+constexpr std::uint8_t kDualReturn = 0x39;
+
+/// Elevations in the order of firing [degrees].
+constexpr std::array<double, 16> kVlp16Elevations = {-15, 1, -13, 3,  -11, 5,  -9, 7,
+                                                     -7,  9, -5,  11, -3,  13, -1, 15};
+constexpr std::array<double, 32> kHdl32Elevations = {
+    -30.67, -9.33,  -29.33, -8.00,  -28.00, -6.67,  -26.67, -5.33,  -25.33, -4.00,  -24.00,
+    -2.67,  -22.67, -1.33,  -21.33, 0.00,   -20.00, 1.33,   -18.67, 2.67,   -17.33, 4.00,
+    -16.00, 5.33,   -14.67, 6.67,   -13.33, 8.00,   -12.00, 9.33,   -10.67, 10.67};
+
+/// How far the scanner has turned at a return, as a share of the turn from block to block. VLP-16:
+/// two firings of 16 lasers, 2.304 us a laser and 55.296 us a firing; HDL-32E: 1.152 us a
+/// laser, 46.08 us a firing.
+double share_of_block(VelodyneModel model, int index) {
+  if (model == VelodyneModel::kHdl32) return 1.152 * index / 46.08;
+  return (2.304 * (index % 16) + 55.296 * (index / 16)) / 110.592;
+}
+
+double elevation_deg(VelodyneModel model, int index) {
+  return model == VelodyneModel::kHdl32 ? kHdl32Elevations[static_cast<std::size_t>(index)]
+                                        : kVlp16Elevations[static_cast<std::size_t>(index % 16)];
+}
+
+int number_16(const std::uint8_t* bytes) { return bytes[0] | bytes[1] << 8; }
+
+/// Azimuth from behind the scanner on, where turns are cut [degrees, 0 to 360).
+double from_behind_deg(double azimuth_deg) { return std::fmod(azimuth_deg + 180.0, 360.0); }
+
+bool is_data(const std::vector<std::uint8_t>& packet) {
+  if (packet.size() != kVelodynePacketBytes) return false;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    const std::uint8_t* bytes = packet.data() + block * kBlockBytes;
+    if (bytes[0] != 0xFF || bytes[1] != 0xEE || number_16(bytes + 2) >= 36000) return false;
+  }
+  return true;
+}
+
+double azimuth_deg(const std::vector<std::uint8_t>& packet, int block) {
+  return kAzimuthUnit_deg *
+         number_16(packet.data() + static_cast<std::size_t>(block) * kBlockBytes + 2);
+}
+
+}  // namespace
+
+std::optional<VelodyneModel> velodyne_model(const std::vector<std::uint8_t>& packet) {
+  if (!is_data(packet)) return std::nullopt;
+  if (packet.back() == 0x22) return VelodyneModel::kVlp16;
+  if (packet.back() == 0x21) return VelodyneModel::kHdl32;
+  return std::nullopt;
+}
+
+std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packet,
+                                          std::int64_t utime) {
+  if (!is_data(packet)) {
+    ++num_malformed_;
+    return std::nullopt;
+  }
+  // With two returns a laser, blocks come in pairs of the same azimuth: the last return, then the
+  // strongest.
+  const bool is_dual = packet[kVelodynePacketBytes - 2] == kDualReturn;
+  const int step = is_dual ? 2 : 1;
+  std::optional<Sweep> whole;
+  double turn_deg = 0.0;
+  for (int block = step - 1; block < kBlocks; block += step) {
+    const double azimuth = azimuth_deg(packet, block);
+    if (block + step < kBlocks) {
+      turn_deg = std::fmod(azimuth_deg(packet, block + step) - azimuth + 360.0, 360.0);
+    }
+    const double from_behind = from_behind_deg(azimuth);
+    if (from_behind < last_azimuth_deg_) {
+      sweep_.utime = first_utime_ + (last_utime_ - first_utime_) / 2;
+      if (started_) whole = std::move(sweep_);
+      started_ = true;
+      sweep_ = {};
+    }
+    last_azimuth_deg_ = from_behind;
+    if (sweep_.points_m.empty()) first_utime_ = utime;
+    last_utime_ = utime;
+    add_block(packet.data() + static_cast<std::size_t>(block) * kBlockBytes + 4, azimuth, turn_deg);
+  }
+  return whole;
+}
+
+void VelodyneDecoder::add_block(const std::uint8_t* returns, double azimuth_deg, double turn_deg) {
+  for (int i = 0; i < kReturns; ++i) {
+    const int distance = number_16(returns + static_cast<std::size_t>(i) * kReturnBytes);
+    if (distance == 0) continue;
+    const double range_m = kDistanceUnit_m * distance;
+    const double azimuth = kRadiansPerDegree * (azimuth_deg + turn_deg * share_of_block(model_, i));
+    const double elevation = kRadiansPerDegree * elevation_deg(model_, i);
+    const double level_m = range_m * std::cos(elevation);
+    sweep_.points_m.emplace_back(static_cast<float>(level_m * std::sin(azimuth)),
+                                 static_cast<float>(level_m * std::cos(azimuth)),
+                                 static_cast<float>(range_m * std::sin(elevation)));
+  }
+}
+
+}  // namespace limbcast::laser_scanner

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace limbcast::laser_scanner {
+
+/// Length of a data packet [bytes]; packets of other lengths (position) are none.
+inline constexpr std::size_t kVelodynePacketBytes = 1206;
+inline constexpr int kVelodynePort = 2368;
+
+enum class VelodyneModel { kVlp16, kHdl32 };
+
+/// The model that a packet names in its last byte (0x22 VLP-16, 0x21 HDL-32E), where it is known.
+std::optional<VelodyneModel> velodyne_model(const std::vector<std::uint8_t>& packet);
+
+/// One turn of the scanner.
+struct Sweep {
+  std::int64_t utime = 0;  ///< middle of its packets [us]
+  /// In the scanner's frame: x right, y forward, z up [m]. Lasers that got no return are left out.
+  std::vector<Eigen::Vector3f> points_m;
+};
+
+/// Puts the packets of a Velodyne together to whole turns (User's Manual VLP-16, 63-9243, chapter
+/// 9; HDL-32E, 63-9113, appendix): 12 blocks of 32 returns each, in units of 2 mm and 0.01 degrees.
+/// A turn is cut behind the scanner, so that nobody in front is; the first, incomplete one is left
+/// out.
+class VelodyneDecoder {
+ public:
+  explicit VelodyneDecoder(VelodyneModel model) : model_(model) {}
+
+  /// Takes a packet that came at `utime`. The turn that it ends, if it ends one. Packets that are
+  /// none are counted and dropped.
+  std::optional<Sweep> add(const std::vector<std::uint8_t>& packet, std::int64_t utime);
+  std::int64_t num_malformed() const { return num_malformed_; }
+
+ private:
+  void add_block(const std::uint8_t* returns, double azimuth_deg, double turn_deg);
+
+  VelodyneModel model_;
+  Sweep sweep_;
+  std::int64_t first_utime_ = 0, last_utime_ = 0;
+  bool started_ = false;  ///< the first, incomplete turn is over
+  double last_azimuth_deg_ = -1.0;
+  std::int64_t num_malformed_ = 0;
+};
+
+}  // namespace limbcast::laser_scanner

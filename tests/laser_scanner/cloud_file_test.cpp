@@ -1,0 +1,148 @@
+#include "modules/laser_scanner/cloud_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "common/input_error.hpp"
+#include "modules/laser_scanner/axes.hpp"
+#include "modules/laser_scanner/lzf.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+
+namespace limbcast::laser_scanner {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::error_of;
+using ::testing::HasSubstr;
+
+template <class T>
+std::string bytes_of(const std::vector<T>& numbers) {
+  std::string bytes(numbers.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
+std::string pcd_header(const std::string& data, int points) {
+  const std::string count = std::to_string(points);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 "
+         "4 4 4\n"
+         "TYPE F F F F\nCOUNT 1 1 1 1\nWIDTH " +
+         count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA " + data + "\n";
+}
+
+class CloudFile : public ::testing::Test {
+ protected:
+  RawCloud read(const std::string& name, const std::string& bytes) {
+    return read_cloud_file(folder_.write(name, bytes));
+  }
+  std::string error(const std::string& name, const std::string& bytes) {
+    return error_of<InputError>([&] { read(name, bytes); });
+  }
+  testing::TemporaryFolder folder_;
+  const float nan_ = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Eigen::Vector3f> two_points_ = {{1.5F, -2.0F, 3.0F}, {4.0F, 5.0F, -6.25F}};
+  const std::vector<float> rows_ = {1.5F, -2.0F, 3.0F, 9.0F, 4.0F, 5.0F, -6.25F, 9.0F};
+};
+
+TEST_F(CloudFile, OfPcdIsReadAsText) {
+  EXPECT_EQ(read("a.pcd", pcd_header("ascii", 2) + "1.5 -2 3 9\n4 5 -6.25 9\n").points,
+            two_points_);
+}
+
+TEST_F(CloudFile, OfPcdIsReadAsNumbers) {
+  EXPECT_EQ(read("a.pcd", pcd_header("binary", 2) + bytes_of(rows_)).points, two_points_);
+}
+
+TEST_F(CloudFile, OfPcdIsReadPacked) {
+  // Column after column; one run of literal bytes: 32 of them.
+  const std::vector<float> columns = {1.5F, 4.0F, -2.0F, 5.0F, 3.0F, -6.25F, 9.0F, 9.0F};
+  const std::string packed = std::string(1, '\x1F') + bytes_of(columns);
+  const std::string sizes =
+      bytes_of<std::uint32_t>({static_cast<std::uint32_t>(packed.size()), 32});
+  EXPECT_EQ(read("a.pcd", pcd_header("binary_compressed", 2) + sizes + packed).points, two_points_);
+}
+
+TEST_F(CloudFile, OfKittiIsRead) { EXPECT_EQ(read("a.bin", bytes_of(rows_)).points, two_points_); }
+
+TEST_F(CloudFile, OfPlyIsReadWithColors) {
+  const std::string properties =
+      "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+      "property uchar green\nproperty uchar blue\nelement face 0\nend_header\n";
+  const RawCloud text = read(
+      "a.ply", "ply\nformat ascii 1.0\n" + properties + "1.5 -2 3 10 20 30\n4 5 -6.25 1 2 3\n");
+  EXPECT_EQ(text.points, two_points_);
+  ASSERT_EQ(text.colors.size(), 2U);
+  EXPECT_EQ(text.colors[0].r, 10);
+  EXPECT_EQ(text.colors[0].b, 30);
+
+  const std::string rows = bytes_of<float>({1.5F, -2.0F, 3.0F}) + "\x0A\x14\x1E" +
+                           bytes_of<float>({4.0F, 5.0F, -6.25F}) + "\x01\x02\x03";
+  const RawCloud binary =
+      read("b.ply", "ply\nformat binary_little_endian 1.0\n" + properties + rows);
+  EXPECT_EQ(binary.points, two_points_);
+  EXPECT_EQ(binary.colors[1].g, 2);
+}
+
+TEST_F(CloudFile, LeavesOutWhatIsNotFinite) {
+  const std::vector<float> rows = {nan_, nan_, nan_, 0.0F, 1.0F, 2.0F, 3.0F, 0.0F};
+  EXPECT_THAT(read("a.pcd", pcd_header("binary", 2) + bytes_of(rows)).points,
+              ElementsAre(Eigen::Vector3f(1.0F, 2.0F, 3.0F)));
+}
+
+TEST_F(CloudFile, ThatCannotBeUsedIsNamed) {
+  EXPECT_THAT(error("a.pcd", ""), HasSubstr("a.pcd: is empty"));
+  EXPECT_THAT(error("a.pcd", "not a cloud"), HasSubstr("is neither PCD, PLY nor KITTI"));
+  EXPECT_THAT(error("a.pcd", "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z"),
+              HasSubstr("its header does not end"));
+  EXPECT_THAT(error("a.pcd", pcd_header("binary", 3) + bytes_of(rows_)), HasSubstr("is torn"));
+  EXPECT_THAT(error("a.pcd", pcd_header("ascii", 3) + "1 2 3 4\n1 2"), HasSubstr("is torn"));
+  EXPECT_THAT(error("a.pcd", pcd_header("ascii", 1) + "1 two 3 4\n"),
+              HasSubstr("'two' is no number"));
+  EXPECT_THAT(error("a.pcd", pcd_header("zipped", 1)), HasSubstr("its data are 'zipped'"));
+  EXPECT_THAT(error("a.pcd", pcd_header("binary", -5)), HasSubstr("tells '-5' points"));
+  EXPECT_THAT(error("a.pcd", pcd_header("binary_compressed", 2) +
+                                 bytes_of<std::uint32_t>({33, 32}) + std::string(33, '\xFF')),
+              HasSubstr("compressed data are torn"));
+  EXPECT_THAT(error("a.bin", std::string(17, 'x')), HasSubstr("no multiple of 16 bytes"));
+  EXPECT_THAT(error("a.ply",
+                    "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\n"
+                    "end_header\n"),
+              HasSubstr("its format is 'binary_big_endian'"));
+  EXPECT_THAT(
+      error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float u\nend_header\n1\n"),
+      HasSubstr("has no x, y and z"));
+}
+
+TEST(Lzf, RepeatsWhatStoodBefore) {
+  // "ab" as it is, then 6 bytes from 2 before: it overlaps itself.
+  const std::vector<std::uint8_t> packed = {0x01, 'a', 'b', 0x80, 0x01};
+  const auto unpacked = unpack_lzf(packed.data(), packed.size(), 8);
+  ASSERT_TRUE(unpacked);
+  EXPECT_EQ(std::string(unpacked->begin(), unpacked->end()), "abababab");
+}
+
+TEST(Lzf, RefusesWhatPointsBeforeTheBeginOrEndsEarly) {
+  for (const std::vector<std::uint8_t>& packed :
+       {std::vector<std::uint8_t>{0x20, 0x05}, {0x1F, 'a'}, {0xE0}, {0x20}}) {
+    EXPECT_FALSE(unpack_lzf(packed.data(), packed.size(), 8));
+  }
+}
+
+TEST(AxesTest, TurnIntoOurFrame) {
+  const Eigen::Vector3f forward_left_up{3.0F, 1.0F, 2.0F};  // 3 ahead, 1 to the left, 2 up
+  EXPECT_EQ(Axes("-y,-z,x", 1.0)(forward_left_up), Eigen::Vector3f(-1.0F, -2.0F, 3.0F));
+  EXPECT_EQ(Axes("x,y,z", 0.001)(Eigen::Vector3f(1000.0F, 0.0F, 500.0F)),
+            Eigen::Vector3f(1.0F, 0.0F, 0.5F));
+}
+
+TEST(AxesTest, ThatNameNoRightHandedFrameAreRefused) {
+  for (const char* text : {"y,-z,x", "x,x,z", "x,y", "x,y,z,x", "a,b,c", "", "x,-y,z"}) {
+    EXPECT_THROW(Axes(text, 1.0), InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::laser_scanner

@@ -1,0 +1,89 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limbcast/point_cloud_t.hpp>
+#include <random>
+
+#include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWrongInput = 2;
+
+class LaserScannerProgram : public ::testing::Test {
+ protected:
+  RunResult write_log(const std::vector<std::string>& options) const {
+    std::vector<std::string> words = {program("limbcast-laser-scanner"), "--log", log_};
+    words.insert(words.end(), options.begin(), options.end());
+    return run(words);
+  }
+  Cloud first_cloud() const {
+    lcm_io::LogReader log(log_);
+    return lcm_io::from_message(lcm_io::decode<point_cloud_t>(log.next()->data));
+  }
+  std::string folder_ = temporary_folder("clouds");
+  std::string log_ = temporary_folder("log") + "/in.log";
+};
+
+/// A floor 1.2 m below the scanner (x forward, z up), with points everywhere on it.
+void write_floor(const std::string& path) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> ahead(1.0F, 6.0F);
+  std::uniform_real_distribution<float> sideways(-3.0F, 3.0F);
+  std::ofstream file(path, std::ios::binary);
+  for (int i = 0; i < 4000; ++i) {
+    const float point[4] = {ahead(random), sideways(random), -1.2F, 0.0F};
+    file.write(reinterpret_cast<const char*>(point), sizeof(point));
+  }
+}
+
+TEST_F(LaserScannerProgram, FindsGravityInTheGround) {
+  write_floor(folder_ + "/a.bin");
+  const RunResult result = write_log({"--source", folder_, "--sensor", "roof"});
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const Cloud cloud = first_cloud();
+  EXPECT_EQ(cloud.stamp.frame, "roof/scan");
+  EXPECT_FALSE(cloud.organized());
+  EXPECT_EQ(cloud.points_m.size(), 4000U);
+  EXPECT_EQ(cloud.stamp.gravity.source, GravitySource::kGroundPlane);
+  EXPECT_NEAR(cloud.stamp.gravity.down.y(), 1.0F, 1e-3F);
+  EXPECT_NEAR(cloud.stamp.gravity.sensor_height_m.value(), 1.2F, 0.01F);
+}
+
+TEST_F(LaserScannerProgram, BelievesTheOptionOverTheGround) {
+  write_floor(folder_ + "/a.bin");
+  ASSERT_EQ(write_log({"--source", folder_, "--down", "0,0.995,0.0998"}).exit_code, 0);
+  EXPECT_EQ(first_cloud().stamp.gravity.source, GravitySource::kOption);
+}
+
+TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
+  const auto error = [this](const std::vector<std::string>& options) {
+    const RunResult result = write_log(options);
+    EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
+    return result.output;
+  };
+  EXPECT_THAT(error({}), HasSubstr("--source is missing"));
+  EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
+  write_floor(folder_ + "/a.bin");
+  EXPECT_THAT(error({"--source", folder_, "--axes", "x,y"}), HasSubstr("'axes' is 'x,y'"));
+  EXPECT_THAT(error({"--source", folder_, "--loop"}), HasSubstr("never end"));
+}
+
+TEST_F(LaserScannerProgram, WritesALogOfTheScans) {
+  const std::string data = LIMBCAST_DATA_DIR;
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
+  const RunResult result = write_log({"--source", data + "/laser_dev"});
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("20 frames sent"));
+}
+
+}  // namespace
+}  // namespace limbcast::test

@@ -1,0 +1,229 @@
+#include "modules/laser_scanner/velodyne.hpp"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "common/input_error.hpp"
+#include "modules/laser_scanner/cloud_source.hpp"
+#include "modules/laser_scanner/packet_source.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/laser_scanner/velodyne_packets.hpp"
+
+namespace limbcast::laser_scanner {
+namespace {
+
+using testing::error_of;
+using ::testing::HasSubstr;
+
+constexpr std::size_t kReturnsOfATurn = 900 * 32;
+
+std::vector<Sweep> sweeps_of(const std::vector<std::vector<std::uint8_t>>& packets) {
+  VelodyneDecoder decoder(VelodyneModel::kVlp16);
+  std::vector<Sweep> sweeps;
+  std::int64_t utime = 0;
+  for (const auto& packet : packets) {
+    if (auto sweep = decoder.add(packet, utime += 1000)) sweeps.push_back(std::move(*sweep));
+  }
+  return sweeps;
+}
+
+TEST(Velodyne, CutsTurnsBehindItself) {
+  const std::vector<Sweep> sweeps = sweeps_of(vlp16_turns(3, 4.0));
+
+  // From the front: half a turn that is left out, two whole ones, half a turn that did not end.
+  ASSERT_EQ(sweeps.size(), 2U);
+  for (const Sweep& sweep : sweeps) {
+    EXPECT_EQ(sweep.points_m.size(), kReturnsOfATurn);
+    // The cut is behind: the first and the last point lie at negative y, within a block of x = 0.
+    EXPECT_LT(sweep.points_m.front().y(), -3.8F);
+    EXPECT_LT(sweep.points_m.back().y(), -3.8F);
+  }
+  EXPECT_NEAR(static_cast<double>(sweeps[1].utime - sweeps[0].utime), 75'000.0, 1'000.0);
+}
+
+TEST(Velodyne, PlacesReturnsByAzimuthElevationAndDistance) {
+  VelodyneDecoder decoder(VelodyneModel::kVlp16);
+  const auto sweeps = sweeps_of(vlp16_turns(2, 4.0));
+  ASSERT_EQ(sweeps.size(), 1U);
+  // Block 450 of the turn starts at azimuth 0: its first laser looks 15 degrees down, the second 1
+  // degree up.
+  const Eigen::Vector3f& low = sweeps[0].points_m[450 * 32];
+  EXPECT_NEAR(low.x(), 0.0, 1e-4);
+  EXPECT_NEAR(low.y(), 4.0 * std::cos(15.0 * M_PI / 180.0), 1e-4);
+  EXPECT_NEAR(low.z(), -4.0 * std::sin(15.0 * M_PI / 180.0), 1e-4);
+  EXPECT_NEAR(sweeps[0].points_m[450 * 32 + 1].z(), 4.0 * std::sin(M_PI / 180.0), 1e-4);
+  // The second firing of a block is half a block (0.2 degrees) later: to the right, as it turns
+  // clockwise.
+  const Eigen::Vector3f& later = sweeps[0].points_m[450 * 32 + 16];
+  EXPECT_NEAR(later.x(), low.y() * std::tan(0.2 * M_PI / 180.0), 1e-4);
+}
+
+TEST(Velodyne, LeavesOutLasersWithoutReturn) {
+  EXPECT_TRUE(sweeps_of(vlp16_turns(2, 0.0)).at(0).points_m.empty());
+}
+
+TEST(Velodyne, CountsPacketsThatAreNone) {
+  VelodyneDecoder decoder(VelodyneModel::kVlp16);
+  EXPECT_FALSE(decoder.add(std::vector<std::uint8_t>(1206, 0), 0));
+  EXPECT_FALSE(decoder.add(std::vector<std::uint8_t>(512, 0xFF), 0));
+  EXPECT_EQ(decoder.num_malformed(), 2);
+}
+
+TEST(Velodyne, KnowsItsModel) {
+  EXPECT_EQ(velodyne_model(vlp16_packet(0.0, 1.0, 0x22)), VelodyneModel::kVlp16);
+  EXPECT_EQ(velodyne_model(vlp16_packet(0.0, 1.0, 0x21)), VelodyneModel::kHdl32);
+  EXPECT_FALSE(velodyne_model(vlp16_packet(0.0, 1.0, 0x99)));
+}
+
+/// A pcap file with Ethernet frames of one UDP packet each, 1 ms apart from 1000 s on.
+std::string pcap_of(const std::vector<std::vector<std::uint8_t>>& payloads, std::uint32_t magic) {
+  std::string file;
+  const auto number_32 = [&file](std::uint32_t value) {
+    file.append(reinterpret_cast<const char*>(&value), 4);
+  };
+  for (const std::uint32_t value : {magic, 0x00040002U, 0U, 0U, 65535U, 1U}) number_32(value);
+  for (std::size_t i = 0; i < payloads.size(); ++i) {
+    std::string frame(14, '\0');                                                     // Ethernet
+    frame += std::string("\x45") + std::string(8, 0) + '\x11' + std::string(10, 0);  // IPv4, UDP
+    frame += std::string(8, '\0');                                                   // UDP
+    frame.append(payloads[i].begin(), payloads[i].end());
+    for (const std::size_t value : {std::size_t{1000}, 1000 * i, frame.size(), frame.size()}) {
+      number_32(static_cast<std::uint32_t>(value));
+    }
+    file += frame;
+  }
+  return file;
+}
+
+class Recorded : public ::testing::Test {
+ protected:
+  CloudSourceParams params(const std::string& source) const {
+    CloudSourceParams params;
+    params.source = source;
+    params.model = "auto";
+    params.sensor = "roof";
+    params.frame = "roof/scan";
+    return params;
+  }
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(Recorded, PcapGivesTurnsInOurFrame) {
+  const std::string path = folder_.write("a.pcap", pcap_of(vlp16_turns(3, 4.0), 0xA1B2C3D4));
+  const auto source = open_cloud_source(params(path));
+
+  const auto frame = source->next();
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->cloud.points.size(), kReturnsOfATurn);
+  // The first laser at azimuth 0 looks ahead and down: z forward, y down.
+  const Eigen::Vector3f ahead = frame->cloud.points[450 * 32];
+  EXPECT_NEAR(ahead.z(), 4.0 * std::cos(15.0 * M_PI / 180.0), 1e-4);
+  EXPECT_NEAR(ahead.y(), 4.0 * std::sin(15.0 * M_PI / 180.0), 1e-4);
+  // Packets 38 to 112 make the first turn; their middle is packet 75, 75 ms after the first.
+  EXPECT_NEAR(static_cast<double>(frame->stamp.utime), 1'000'075'000.0, 1'000.0);
+  EXPECT_EQ(frame->stamp.sensor, "roof");
+  EXPECT_TRUE(source->next());
+  EXPECT_FALSE(source->next());
+  EXPECT_TRUE(source->ended());
+}
+
+TEST_F(Recorded, PcapThatIsTornGivesWhatIsWhole) {
+  std::string bytes = pcap_of(vlp16_turns(3, 4.0), 0xA1B2C3D4);
+  bytes.resize(bytes.size() * 3 / 5);
+  const auto source = open_cloud_source(params(folder_.write("a.pcap", bytes)));
+  EXPECT_TRUE(source->next());
+  EXPECT_FALSE(source->next());
+  EXPECT_TRUE(source->ended());
+}
+
+TEST_F(Recorded, PcapThatCannotBeUsedIsNamed) {
+  const auto error = [this](const std::string& bytes) {
+    const std::string path = folder_.write("a.pcap", bytes);
+    return error_of<InputError>([&] { open_cloud_source(params(path))->next(); });
+  };
+  EXPECT_THAT(error("short"), HasSubstr("a.pcap: cannot be read as a pcap file"));
+  EXPECT_THAT(error(pcap_of({}, 0x0A0D0D0A)), HasSubstr("is no pcap file"));
+  EXPECT_THAT(error(pcap_of({}, 0xA1B2C3D4)), HasSubstr("holds no whole turn"));
+  EXPECT_THAT(error(pcap_of({vlp16_packet(0.0, 1.0, 0x99)}, 0xA1B2C3D4)),
+              HasSubstr("give --velodyne-model"));
+}
+
+TEST_F(Recorded, FolderGivesCloudsWithTimesGravityAndTruth) {
+  const std::vector<float> row = {5.0F, -1.0F, 0.5F, 0.0F, 90.0F, 0.0F, 0.0F, 0.0F};
+  std::string bytes(row.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), row.data(), bytes.size());
+  folder_.write("a.bin", bytes);
+  folder_.write("timestamps.csv", "name,utime,down_x,down_y,down_z\na,77,0,0.8,0.6\n");
+  folder_.write("a_gt.json", R"({"utime": 77, "persons": []})");
+
+  const auto source = open_cloud_source(params(folder_.path()));
+  const auto frame = source->next();
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp.utime, 77);
+  EXPECT_EQ(frame->stamp.gravity.source, GravitySource::kRecording);
+  EXPECT_TRUE(frame->truth);
+  // KITTI: 5 m ahead, 1 m to the right, 0.5 m up; the point at 90 m is beyond the far limit.
+  ASSERT_EQ(frame->cloud.points.size(), 1U);
+  EXPECT_EQ(frame->cloud.points[0], Eigen::Vector3f(1.0F, -0.5F, 5.0F));
+  EXPECT_TRUE(source->ended());
+}
+
+TEST_F(Recorded, SourcesThatCannotBeOpenedAreNamed) {
+  const auto error = [this](const std::string& source) {
+    return error_of<InputError>([&] { open_cloud_source(params(source)); });
+  };
+  EXPECT_THAT(error("/nowhere"), HasSubstr("/nowhere: does not exist"));
+  EXPECT_THAT(error(folder_.path()), HasSubstr("has no files of .pcd .ply .bin"));
+  EXPECT_THAT(error("velodyne:99999"), HasSubstr("'99999' is no UDP port"));
+}
+
+TEST_F(Recorded, LiveScannerIsHeardOnItsPort) {
+  // Some port of this process's own.
+  const int port = 20000 + getpid() % 40000;
+  const auto source = open_cloud_source(params("velodyne:" + std::to_string(port)));
+  EXPECT_TRUE(source->live());
+  const int sender = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  for (const auto& packet : vlp16_turns(2, 3.0)) {
+    sendto(sender, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&address),
+           sizeof(address));
+  }
+  close(sender);
+
+  const auto frame = source->next();
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->cloud.points.size(), kReturnsOfATurn);
+  EXPECT_FALSE(source->next());
+  EXPECT_FALSE(source->ended());
+}
+
+TEST_F(Recorded, ScansOfTheDataAreRead) {
+  const std::string data = LIMBCAST_DATA_DIR;
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
+  const auto laser = open_cloud_source(params(data + "/laser_dev"));
+  int frames = 0;
+  while (const auto frame = laser->next()) {
+    ++frames;
+    EXPECT_TRUE(frame->truth);
+    EXPECT_GT(frame->cloud.points.size(), 30'000U);
+  }
+  EXPECT_EQ(frames, 20);
+  // binary_compressed, organised, with colours.
+  const auto kinect = open_cloud_source(params(data + "/clouds/five_people.pcd"))->next();
+  EXPECT_GT(kinect->cloud.points.size(), 200'000U);
+  EXPECT_EQ(kinect->cloud.colors.size(), kinect->cloud.points.size());
+}
+
+}  // namespace
+}  // namespace limbcast::laser_scanner
