@@ -115,7 +115,7 @@ TEST_F(RecordedFolder, ThatIsEmptyOrMissingIsAnError) {
 
 TEST_F(RecordedFolder, TimestampsThatNameAMissingFrameAreAnError) {
   EXPECT_THAT(error_of_timestamps("name,utime\na,1\nb,2\n"),
-              HasSubstr("names 'b', but there is no b_left"));
+              HasSubstr("names 'b', but there is no such frame"));
 }
 
 TEST_F(RecordedFolder, TornTimestampsAreAnErrorWithTheLine) {
