@@ -42,7 +42,9 @@ cv::Mat decode_raw(const image_t& message, int channels) {
 cv::Mat decode_file(const image_t& message) {
   cv::Mat image;
   try {
-    image = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
+    // A camera's note that it was held upright must not turn the pixels away from its calibration.
+    image = cv::imdecode(message.data,
+                         cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     throw MessageError("image: data cannot be decoded");
   }

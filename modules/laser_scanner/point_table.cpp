@@ -133,7 +133,10 @@ std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::strin
         if (!(words >> word)) return bytes;
         char* end = nullptr;
         const double value = std::strtod(word.c_str(), &end);
-        if (*end != '\0') throw InputError(where + ": '" + word + "' is no number; copy it again");
+        if (*end != '\0') {
+          throw InputError(std::string(where).append(": '").append(word).append(
+              "' is no number; copy it again"));
+        }
         store_number(column, value, bytes);
       }
     }

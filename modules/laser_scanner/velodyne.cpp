@@ -27,7 +27,7 @@ constexpr std::array<double, 32> kHdl32Elevations = {
 /// laser, 46.08 us a firing.
 double share_of_block(VelodyneModel model, int index) {
   if (model == VelodyneModel::kHdl32) return 1.152 * index / 46.08;
-  return (2.304 * (index % 16) + 55.296 * (index / 16)) / 110.592;
+  return (2.304 * (index % 16) + (index < 16 ? 0.0 : 55.296)) / 110.592;
 }
 
 double elevation_deg(VelodyneModel model, int index) {

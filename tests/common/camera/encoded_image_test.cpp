@@ -55,6 +55,17 @@ TEST(EncodedImage, PngKeepsEveryPixel) {
   }
 }
 
+TEST(EncodedImage, KeepsPixelsWhereTheCameraStoodWhateverItsOrientationNoteSays) {
+  EncodedImage image = encode_jpeg(ramp(CV_8UC3), 90);
+  // EXIF: one entry, orientation (0x0112) = 6, turn by 90 degrees.
+  const std::vector<std::uint8_t> exif = {0xFF, 0xE1, 0, 34, 'E', 'x', 'i', 'f', 0, 0,  'M', 'M',
+                                          0,    42,   0, 0,  0,   8,   0,   1,   1, 18, 0,   3,
+                                          0,    0,    0, 1,  0,   6,   0,   0,   0, 0,  0,   0};
+  image.bytes.insert(image.bytes.begin() + 2, exif.begin(), exif.end());
+  const cv::Mat pixels = decode_image(identify_image(image.bytes, "test"), "test");
+  EXPECT_EQ(pixels.size(), cv::Size(64, 48));
+}
+
 TEST(EncodedImage, TornFilesAreRecognisedWhereverTheyEnd) {
   for (const EncodedImage& whole : {encode_jpeg(ramp(CV_8UC3), 90), encode_png(ramp(CV_8UC3))}) {
     for (std::size_t size = 0; size + 4 < whole.bytes.size(); size += 7) {
