@@ -57,9 +57,9 @@ Posture between(const Posture& from, const Posture& to, double share) {
   return result;
 }
 
-Motion::Motion(MotionKind kind, const BodyShape& body, const Place& start,
+Motion::Motion(MotionKind kind, const BodyShape& body, const Place& place,
                const PointingParams& pointing, Rng rng)
-    : kind_(drawn(kind, rng)), body_(body), start_(start) {
+    : kind_(drawn(kind, rng)), body_(body), place_(place) {
   PointingParams standing = pointing;
   standing.seated_share = 0.0;
   switch (kind_) {
@@ -123,13 +123,13 @@ Posture Motion::posture(double seconds) const {
 }
 
 Place Motion::place(double seconds) const {
-  double forward_m = walked_m(seconds);
+  double forward_m = walked_m(seconds) - walked_m(kWalk_s);
   if (kind_ == MotionKind::kSitDown) {  // the feet stay, the hips go back
     forward_m = middle_of_feet_z(body_, stations_[0]) - middle_of_feet_z(body_, posture(seconds));
   }
-  Place place = start_;
-  place.x_m -= forward_m * std::sin(start_.yaw_rad);
-  place.z_m -= forward_m * std::cos(start_.yaw_rad);
+  Place place = place_;
+  place.x_m -= forward_m * std::sin(place_.yaw_rad);
+  place.z_m -= forward_m * std::cos(place_.yaw_rad);
   return place;
 }
 

@@ -18,8 +18,8 @@ enum class MotionKind {
 /// What somebody does in the course of time; drawn once, then a function of time alone.
 class Motion {
  public:
-  /// `start`: where and how the body stands at first.
-  Motion(MotionKind kind, const BodyShape& body, const Place& start, const PointingParams& pointing,
+  /// `place`: where the body stands; a walker stops there.
+  Motion(MotionKind kind, const BodyShape& body, const Place& place, const PointingParams& pointing,
          Rng rng);
 
   MotionKind kind() const { return kind_; }
@@ -32,7 +32,7 @@ class Motion {
 
   MotionKind kind_;
   BodyShape body_;
-  Place start_;
+  Place place_;
   std::vector<Posture> stations_;  ///< postures that are held, in turn
   int waving_side_ = 0;
 };

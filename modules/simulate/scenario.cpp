@@ -134,8 +134,8 @@ std::vector<Motion> draw_motions(const Rng& base, const ScenarioParams& params) 
     Rng rng = base.derive(static_cast<std::uint64_t>(i));
     const BodyShape body = draw_body(rng, params.body);
     const double yaw = radians(rng.uniform(-60, 60));
-    // A walker comes about 2 m nearer.
-    const double z = rng.uniform(0.6, 0.9) * params.max_distance_m;
+    // A walker comes from about 2 m farther away.
+    const double z = rng.uniform(0.42, 0.7) * params.max_distance_m;
     const double x = (i - 0.5 * (count - 1)) * 0.9 + rng.normal(0.0, 0.1);
     motions.emplace_back(params.motion, body, Place{x, z, yaw}, params.pointing, rng.derive(1));
   }
@@ -156,8 +156,8 @@ std::vector<Person> people_at(const std::vector<Motion>& motions, double seconds
 }
 
 void furnish(SceneBuilder& scene, Rng& rng, const ScenarioParams& params,
-             const std::vector<Person>& persons) {
-  std::vector<Circle> keep_free = {{0.0, 0.0, 1.2}};
+             const std::vector<Person>& persons, std::vector<Circle> keep_free) {
+  keep_free.push_back({0.0, 0.0, 1.2});
   for (const Person& person : persons) {
     keep_free.push_back({person.place.x_m, person.place.z_m, person.posture.seated ? 0.9 : 0.6});
     // Nothing stands at random before a person: occluders are drawn on purpose.
@@ -196,10 +196,16 @@ Scenario draw_scenario(const ScenarioParams& params, const PinholeCamera& camera
                    static_cast<std::int64_t>(seed % 10000) * 86'400'000'000 +
                    std::llround(seconds * 1e6);
   std::vector<Person> furnished_for;
+  std::vector<Circle> paths;
   if (moving) {
     const std::vector<Motion> motions = draw_motions(rng.derive(7), params);
     scenario.persons = people_at(motions, seconds);
     furnished_for = people_at(motions, kEnd_s);
+    for (const Motion& motion : motions) {
+      for (const double moment : {0.0, 0.8, 1.6, 2.4}) {
+        paths.push_back({motion.place(moment).x_m, motion.place(moment).z_m, 0.6});
+      }
+    }
   } else {
     scenario.persons = draw_people(rng, params, camera, sensor_from_world);
     furnished_for = scenario.persons;
@@ -207,7 +213,7 @@ Scenario draw_scenario(const ScenarioParams& params, const PinholeCamera& camera
 
   SceneBuilder scene(rng.derive(8));
   Rng furniture = rng.derive(9);
-  furnish(scene, furniture, params, furnished_for);
+  furnish(scene, furniture, params, furnished_for, paths);
   scenario.world = std::move(scene.world());
   for (Solid& solid : scenario.world.solids) {
     solid.frame_from_solid = sensor_from_world.cast<float>() * solid.frame_from_solid;
