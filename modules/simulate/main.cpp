@@ -1,4 +1,5 @@
-#include <memory>
+#include <filesystem>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,13 @@ void publish(const SimulateOptions& options, const SimulatorParams& params,
   } while (options.loop);
 }
 
+void report(const SimulateOptions& options, const SimulatorParams& params) {
+  const std::string programs = std::filesystem::canonical("/proc/self/exe").parent_path().string();
+  print_report(make_report(params, options.report_params, programs,
+                           static_cast<std::uint64_t>(options.seed)),
+               options.report_params, std::cout);
+}
+
 void run(int argc, const char* const* argv) {
   SimulateOptions options;
   Channels channels;
@@ -80,7 +88,9 @@ void run(int argc, const char* const* argv) {
   const SimulatorParams params = to_params(options);
   config::configure_log("simulate", parser.common().log_level);
   lcm_io::install_signal_handlers();
-  if (!options.output.empty()) {
+  if (options.report) {
+    report(options, params);
+  } else if (!options.output.empty()) {
     FrameFolder folder(options.output, params);
     make_frames(options, params, [&](const SimulatedFrame& frame, int) { folder.write(frame); });
   } else if (!options.log.empty()) {

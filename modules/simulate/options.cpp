@@ -57,6 +57,10 @@ void declare(config::Section& section, SimulateOptions& options) {
   section.add("child-share", params.scenario.body.child_share, "", "of people who are children",
               {0.0, 1.0});
   section.add("frame-rate-hz", params.scenario.frame_rate_hz, "Hz", "of a sequence", {0.1, 1000.0});
+  section.add("pitch-down-deg", params.scenario.pitch_down_deg, "deg", "mean pitch of the camera",
+              {-90.0, 90.0});
+  section.add("pitch-sigma-deg", params.scenario.pitch_sigma_deg, "deg",
+              "its standard deviation from frame to frame", {0.0, 30.0});
   section.add("width-px", params.camera.width, "px", "of the pictures", {32, 8192});
   section.add("height-px", params.camera.height, "px", "of the pictures", {32, 8192});
   section.add("focal-px", params.camera.fx, "px", "focal length", {20.0, 20000.0});
@@ -70,6 +74,16 @@ void declare(config::Section& section, SimulateOptions& options) {
               "the laser looks up and down", {1.0, 90.0});
   section.add("range-sigma-m", params.laser.range_sigma_m, "m", "noise of the laser", {0.0, 1.0});
   section.add("organised", params.laser.organised, "keep the laser's rows, with NaN for no return");
+  section.add("report", options.report,
+              "tell to what distance poses will be right, from runs of limbcast-replay");
+  section.add("report-from-m", options.report_params.from_m, "m", "nearest distance of the report",
+              {0.5, 20.0});
+  section.add("report-to-m", options.report_params.to_m, "m", "farthest distance of the report",
+              {0.5, 20.0});
+  section.add("report-step-m", options.report_params.step_m, "m", "between two distances",
+              {0.1, 10.0});
+  section.add("report-frames", options.report_params.frames, "", "simulated at each distance",
+              {1, 1000});
 }
 
 SimulatorParams to_params(const SimulateOptions& options) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/config/options.hpp"
+#include "modules/simulate/report.hpp"
 #include "modules/simulate/simulator.hpp"
 
 namespace limbcast::simulate {
@@ -18,6 +19,8 @@ struct SimulateOptions {
   int frames = 20, first = 0, seed = 1, persons = 0;
   double rate_hz = 10.0;  ///< of live frames
   bool loop = false;
+  bool report = false;  ///< instead of frames: to what distance poses are right
+  ReportParams report_params;
   SimulatorParams params;
 };
 

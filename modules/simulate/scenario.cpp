@@ -48,7 +48,7 @@ struct View {
 
 View draw_view(Rng& rng, const ScenarioParams& params) {
   return {rng.uniform(params.min_camera_height_m, params.max_camera_height_m),
-          radians(rng.normal(0.0, params.pitch_sigma_deg)),
+          radians(rng.normal(params.pitch_down_deg, params.pitch_sigma_deg)),
           radians(rng.normal(0.0, params.roll_sigma_deg))};
 }
 

@@ -23,6 +23,7 @@ struct ScenarioParams {
   double occluder_share = 0.2;  ///< of frames with something between camera and a person
   double cut_share = 0.15;      ///< of people who may stand partly out of the image
   double min_camera_height_m = 0.9, max_camera_height_m = 1.6;
+  double pitch_down_deg = 0.0;                         ///< mean pitch of the camera
   double pitch_sigma_deg = 7.0, roll_sigma_deg = 1.0;  ///< of the camera
   MotionKind motion = MotionKind::kAny;                ///< of a sequence
   double frame_rate_hz = 10.0;                         ///< of a sequence

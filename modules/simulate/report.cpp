@@ -1,0 +1,196 @@
+#include "modules/simulate/report.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
+
+#include "common/config/log.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "modules/simulate/frame_messages.hpp"
+
+extern char** environ;
+
+namespace limbcast::simulate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that goes when it is no longer needed.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "limbcast_report_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+/// Runs a program to its end, what it says goes to `said`.
+void run(const std::vector<std::string>& command, const std::string& said) {
+  std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
+  for (const std::string& argument : command)
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t process = 0;
+  const int failed =
+      posix_spawn(&process, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0)
+    throw std::runtime_error(command[0] +
+                             ": cannot be started; is it installed beside this program?");
+  int status = 0;
+  waitpid(process, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::ifstream file(said);
+  std::string line;
+  std::string last;
+  while (std::getline(file, line)) last = line;
+  throw std::runtime_error(command[0] + " failed: " + last);
+}
+
+std::optional<double> figure(const nlohmann::json& evaluation, const char* name) {
+  const auto& figures = evaluation.at("figures");
+  if (!figures.contains(name) || figures.at(name).at("value").is_null()) return std::nullopt;
+  return figures.at(name).at("value").get<double>();
+}
+
+SimulatorParams at_distance(SimulatorParams params, double distance_m) {
+  ScenarioParams& scenario = params.scenario;
+  scenario.set = SetKind::kPointing;
+  scenario.min_distance_m = distance_m - 0.1;
+  scenario.max_distance_m = distance_m + 0.1;
+  scenario.occluder_share = 0.0;
+  scenario.cut_share = 1.0;  // near the camera nobody fits in whole: that is part of the answer
+  params.vary_noise = false;
+  return params;
+}
+
+ReportRow simulate_row(const SimulatorParams& params, const ReportParams& report, double distance_m,
+                       const std::string& log_path, std::uint64_t seed) {
+  ReportRow row;
+  row.distance_m = distance_m;
+  row.sigma_z_m = sigma_z_m(params, distance_m);
+  lcm_io::LogWriter log(log_path);
+  Outlet outlet(log);
+  for (int i = 0; i < report.frames; ++i) {
+    const SimulatedFrame frame = simulate_frame(params, seed, i);
+    for (const int points : frame.pixels)
+      row.points_on_person += static_cast<double>(points) / report.frames;
+    FrameMessages(params, frame, "simulated", i).send({}, outlet);
+  }
+  log.close();
+  return row;
+}
+
+std::string text_of(const std::optional<double>& value) {
+  if (!value) return "-";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f", *value);
+  return text;
+}
+
+}  // namespace
+
+double sigma_z_m(const SimulatorParams& params, double distance_m) {
+  switch (params.sensor) {
+    case SensorKind::kStereo:
+    case SensorKind::kStereoDepth:
+      return distance_m * distance_m * params.stereo.sigma_px /
+             (params.camera.fx * params.baseline_m);
+    case SensorKind::kDepth: {
+      const double beyond = distance_m - 0.4;
+      return params.depth.constant_sigma_m + params.depth.quadratic_sigma_per_m * beyond * beyond;
+    }
+    case SensorKind::kLaser:
+      return params.laser.range_sigma_m;
+  }
+  return 0.0;
+}
+
+std::vector<ReportRow> make_report(const SimulatorParams& params, const ReportParams& report,
+                                   const std::string& programs, std::uint64_t seed) {
+  const TemporaryFolder folder;
+  const std::string said = folder.file("said.txt");
+  std::vector<ReportRow> rows;
+  for (double distance = report.from_m; distance < report.to_m + 1e-6; distance += report.step_m) {
+    const SimulatorParams here = at_distance(params, distance);
+    ReportRow row = simulate_row(here, report, distance, folder.file("in.log"), seed);
+    run({programs + "/limbcast-replay", folder.file("in.log"), folder.file("out.log")}, said);
+    run({programs + "/limbcast-evaluate", folder.file("out.log"), "--json",
+         folder.file("figures.json")},
+        said);
+    nlohmann::json evaluation;
+    std::ifstream(folder.file("figures.json")) >> evaluation;
+    row.found_percent = figure(evaluation, "people_found_percent");
+    row.joints_percent = figure(evaluation, "joints_within_10cm_percent");
+    row.joint_error_cm = figure(evaluation, "joint_error_mean_cm");
+    row.right_percent = figure(evaluation, "pointing_right_percent");
+    row.pointing_deg = figure(evaluation, "pointing_median_deg");
+    rows.push_back(row);
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.1f m done", distance);
+    config::log(config::LogLevel::kInfo, text);
+  }
+  return rows;
+}
+
+void print_report(const std::vector<ReportRow>& rows, const ReportParams& report,
+                  std::ostream& out) {
+  out << "distance  sigma of distance  points on person  people found  joints within 10 cm  mean "
+         "error  postures right"
+         "  pointing median\n";
+  std::optional<double> first_right;
+  std::optional<double> last_right;
+  for (const ReportRow& row : rows) {
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  "%6.1f m %14.1f cm %16.0f %12s %% %18s %% %8s cm %13s %% %12s deg\n",
+                  row.distance_m, 100.0 * row.sigma_z_m, row.points_on_person,
+                  text_of(row.found_percent).c_str(), text_of(row.joints_percent).c_str(),
+                  text_of(row.joint_error_cm).c_str(), text_of(row.right_percent).c_str(),
+                  text_of(row.pointing_deg).c_str());
+    out << text;
+    const bool right = row.joints_percent && *row.joints_percent >= 100.0 * report.right_share;
+    if (right && !first_right) first_right = row.distance_m;
+    if (right) last_right = row.distance_m;
+  }
+  char text[160];
+  if (first_right) {
+    std::snprintf(
+        text, sizeof(text),
+        "Poses are right (%.0f %% of the visible joints within 10 cm) from %.1f to %.1f m.\n",
+        100.0 * report.right_share, *first_right, *last_right);
+  } else {
+    std::snprintf(text, sizeof(text),
+                  "Poses are right (%.0f %% of the visible joints within 10 cm) at no distance.\n",
+                  100.0 * report.right_share);
+  }
+  out << text;
+}
+
+}  // namespace limbcast::simulate

@@ -1,0 +1,59 @@
+#include "modules/simulate/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace limbcast::simulate {
+namespace {
+
+TEST(SigmaZ, OfStereoGrowsWithTheSquareOfTheDistance) {
+  SimulatorParams params;
+  params.camera.fx = 500.0;
+  params.baseline_m = 0.12;
+  params.stereo.sigma_px = 0.12;
+
+  EXPECT_NEAR(sigma_z_m(params, 2.0), 4.0 * 0.12 / 60.0, 1e-12);  // Z^2 sigma / (f B)
+  EXPECT_NEAR(sigma_z_m(params, 4.0), 4.0 * sigma_z_m(params, 2.0), 1e-12);
+}
+
+TEST(SigmaZ, OfALaserIsItsNoise) {
+  SimulatorParams params;
+  params.sensor = SensorKind::kLaser;
+  params.laser.range_sigma_m = 0.02;
+
+  EXPECT_EQ(sigma_z_m(params, 7.0), 0.02);
+}
+
+TEST(Report, SaysFromWhereToWherePosesAreRight) {
+  std::vector<ReportRow> rows(4);
+  for (int i = 0; i < 4; ++i) rows[i].distance_m = 1.0 + i;
+  rows[1].joints_percent = 97.0;
+  rows[2].joints_percent = 96.0;
+  rows[3].joints_percent = 60.0;
+  std::ostringstream out;
+
+  print_report(rows, {}, out);
+
+  EXPECT_THAT(out.str(), ::testing::HasSubstr("from 2.0 to 3.0 m"));
+}
+
+TEST(Report, NamesTheProgramThatIsMissing) {
+  SimulatorParams params;
+  params.camera = {160, 120, 130.0, 130.0, 79.5, 59.5};
+  params.sensor = SensorKind::kStereoDepth;
+  ReportParams report;
+  report.from_m = report.to_m = 2.0;
+  report.frames = 1;
+
+  try {
+    make_report(params, report, "/nowhere", 1);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/nowhere/limbcast-replay"));
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::simulate
