@@ -32,6 +32,7 @@ inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distanc
 /// Packets of whole turns: 75 packets of 4.8 degrees each, beginning in front.
 inline std::vector<std::vector<std::uint8_t>> vlp16_turns(int turns, double distance_m) {
   std::vector<std::vector<std::uint8_t>> packets;
+  packets.reserve(75 * static_cast<std::size_t>(turns));
   for (int i = 0; i < 75 * turns; ++i) {
     packets.push_back(vlp16_packet(std::fmod(4.8 * i, 360.0), distance_m));
   }

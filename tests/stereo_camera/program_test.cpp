@@ -24,7 +24,6 @@ namespace {
 using lcm_io::decode;
 using lcm_io::Keep;
 using std::chrono::milliseconds;
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 

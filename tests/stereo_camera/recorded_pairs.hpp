@@ -28,7 +28,7 @@ inline std::string write_stereo_calibration(const std::string& folder, double ba
   text += "R" + matrix + "[ 1., 0., 0., 0., 1., 0., 0., 0., 1. ]\n";
   text += "T: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ " +
           std::to_string(-baseline_m) + ", 0., 0. ]\n";
-  const std::string path = folder + "/calibration.yml";
+  std::string path = folder + "/calibration.yml";
   write_text(path, text);
   return path;
 }
@@ -38,13 +38,17 @@ inline void write_pairs(const std::string& folder, int frames, std::int64_t peri
   std::string times = "name,utime\n";
   for (int i = 0; i < frames; ++i) {
     const std::string name = "frame_" + std::to_string(i);
+    const std::string stem = std::string(folder).append("/").append(name);
     const int level = 40 + 5 * i;
-    testing::write_bytes(folder + "/" + name + "_left.jpg",
+    testing::write_bytes(stem + "_left.jpg",
                          encode_jpeg(testing::grey_picture(kWidth, kHeight, level), 95));
     testing::write_bytes(
-        folder + "/" + name + "_right.jpg",
+        stem + "_right.jpg",
         encode_jpeg(testing::grey_picture(kWidth, kHeight, level + kRightLighter), 95));
-    times += name + "," + std::to_string(1'000'000'000 + i * period_us) + "\n";
+    times.append(name)
+        .append(",")
+        .append(std::to_string(1'000'000'000 + i * period_us))
+        .append("\n");
   }
   write_text(folder + "/timestamps.csv", times);
 }
@@ -58,6 +62,7 @@ inline std::vector<lcm_io::LogEvent> events_of(const std::string& log) {
 
 inline std::vector<std::string> channels_of(const std::vector<lcm_io::LogEvent>& events) {
   std::vector<std::string> channels;
+  channels.reserve(events.size());
   for (const lcm_io::LogEvent& event : events) channels.push_back(event.channel);
   return channels;
 }

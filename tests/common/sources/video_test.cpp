@@ -66,6 +66,7 @@ TEST(VideoSourceTest, CountsOnThroughALoop) {
   VideoSource source(write_video(folder / "both.avi", {128, 48}, 2, 90), "", stereo_format(),
                      {10.0, 0, true});
   std::vector<std::int64_t> utimes;
+  utimes.reserve(5);
   for (int i = 0; i < 5; ++i) utimes.push_back(source.next()->stamp.utime);
   EXPECT_THAT(utimes, ::testing::ElementsAre(0, 100'000, 200'000, 300'000, 400'000));
 }
