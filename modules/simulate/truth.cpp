@@ -71,7 +71,7 @@ bool visible(const Scenario& scenario, const Person& person, const FieldOfView& 
   if (!in_image(view, point)) return false;
   RayGrid ray;
   ray.width = ray.height = 1;
-  const Eigen::Vector3f towards = point.normalized().cast<float>();
+  Eigen::Vector3f towards = point.normalized().cast<float>();
   ray.direction = [towards](int, int) { return towards; };
   const Hit hit = raycast(scenario.world, ray).at(0, 0);
   if (hit.surface != person.surface) return false;
@@ -113,7 +113,7 @@ json direction(const Vector3d& v) { return rounded(v.normalized(), 1e-5); }
 /// What the line from eye to fingertip meets: there the person points, if it is a thing.
 json target_json(const Scenario& scenario, const Person& person) {
   const Vector3d& fingertip = person.skeleton.fingertip[person.posture.pointing_side];
-  const Eigen::Vector3f towards = (fingertip - person.skeleton.eye).normalized().cast<float>();
+  Eigen::Vector3f towards = (fingertip - person.skeleton.eye).normalized().cast<float>();
   RayGrid ray;
   ray.width = ray.height = 1;
   ray.origin = fingertip.cast<float>() + 0.03F * towards;  // out of the finger
@@ -141,6 +141,20 @@ json pointing_json(const Scenario& scenario, const Person& person, const Visibil
           {"arm_visible_fraction", std::round(seen.arm_fraction * 100.0) / 100.0}};
 }
 
+/// What the person wears, to sort errors by.
+json clothes_json(const Clothes& clothes) {
+  static const char* const kSleeves[] = {"none", "short", "long"};
+  static const char* const kLegwear[] = {"trousers", "shorts", "skirt", "long_skirt"};
+  static const char* const kHair[] = {"bald", "short", "long", "bun", "afro", "headscarf"};
+  static const char* const kHat[] = {"none", "cap", "beanie", "brim"};
+  return {{"sleeves", kSleeves[static_cast<int>(clothes.sleeve)]},
+          {"legwear", kLegwear[static_cast<int>(clothes.legwear)]},
+          {"hair", kHair[static_cast<int>(clothes.hair)]},
+          {"hat", kHat[static_cast<int>(clothes.hat)]},
+          {"jacket", clothes.jacket},
+          {"backpack", clothes.backpack}};
+}
+
 json person_json(const Scenario& scenario, std::size_t i, const FieldOfView& view, int pixels) {
   const Person& person = scenario.persons[i];
   const Visibility seen = visibility_of(scenario, person, view);
@@ -161,6 +175,8 @@ json person_json(const Scenario& scenario, std::size_t i, const FieldOfView& vie
   return {{"id", "S" + std::to_string(i + 1)},
           {"body", "simulated_" + person.body.name},
           {"height_m", std::round(person.body.stature_m * 1000.0) / 1000.0},
+          {"seated", person.posture.seated},
+          {"clothes", clothes_json(person.body.clothes)},
           {"joints", joints},
           {"visible", visible_joints},
           {"mask_index", i + 1},

@@ -11,7 +11,7 @@ using Eigen::Vector3f;
 Hit hit_along(const World& world, const Vector3f& direction) {
   RayGrid ray;
   ray.width = ray.height = 1;
-  const Vector3f unit = direction.normalized();
+  Vector3f unit = direction.normalized();
   ray.direction = [unit](int, int) { return unit; };
   return raycast(world, ray).at(0, 0);
 }
