@@ -17,6 +17,8 @@ constexpr Real kMostEvidence = 30.0;
 constexpr Real kLeastJointConfidence = 0.15;
 /// A direction less sure than this, or with less to speak for it, is not told.
 constexpr Real kLeastPointingConfidence = 0.65;
+/// A body less sure than this is no person.
+constexpr Real kLeastPersonConfidence = 0.15;
 constexpr Real kLeastArmSupport = 3.0, kLeastArmGap = 1.0;
 /// Posterior spreads are too small, as neighbouring points share their errors: measured error
 /// against stated sigma on the tuning half.
@@ -44,6 +46,16 @@ Real pointing_confidence(const Evidence& evidence, const ArmEvidence& arm) {
                   0.82 * arm.supported_share);
 }
 
+/// Furniture fits a body too, but badly or in an odd posture.
+Real person_confidence(const BodyState& body, const Evidence& evidence) {
+  const Real weight = std::max(1.0, evidence.weight);
+  return logistic(10.09 - 4.75 * std::log(std::max(0.1, evidence.prior_cost)) -
+                  4.77 * std::min(1.0, evidence.surface_cost / weight) +
+                  0.36 * std::log(evidence.free_space_cost / weight + 0.003) +
+                  0.39 * std::min(1.5, evidence.head_weight / 15.0) -
+                  0.66 * std::abs(std::log(body.stature_m() / 1.65)) + 1.21 * std::log(weight));
+}
+
 }  // namespace
 
 std::optional<BodyPose> assess(const BodyState& body, const Evidence& evidence,
@@ -66,11 +78,9 @@ std::optional<BodyPose> assess(const BodyState& body, const Evidence& evidence,
     }
     pose.pointing.push_back(pointing);
   }
-  std::stable_sort(
-      pose.pointing.begin(), pose.pointing.end(),
-      [](const Pointing& a, const Pointing& b) { return a.confidence > b.confidence; });
   pose.scale = static_cast<float>(body.stature_m() / kReferenceStatureM);
-  pose.confidence = static_cast<float>(evidence.explained_share);
+  pose.confidence = static_cast<float>(person_confidence(body, evidence));
+  if (pose.confidence < kLeastPersonConfidence) return std::nullopt;
   return pose;
 }
 

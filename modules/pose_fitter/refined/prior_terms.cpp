@@ -240,7 +240,7 @@ class Priors {
 
 bool of_arm(int point) { return (point >= kShoulder && point < kHip) || point == kHand; }
 
-void add_proportions(const BodyState& body, int side, bool arm, Priors& priors) {
+void add_proportions(int side, bool arm, Priors& priors) {
   for (const Offset& offset : body_offsets()) {
     if (of_arm(offset.point) != arm || offset.point == kShoulder) continue;
     if (side == 1 && !offset.both_sides) continue;
@@ -269,7 +269,7 @@ void add_shoulder(const BodyState& body, int side, Priors& priors) {
 
 void add_arm(const BodyState& body, int side, Priors& priors) {
   add_shoulder(body, side, priors);
-  add_proportions(body, side, true, priors);
+  add_proportions(side, true, priors);
   priors.hand(side);
   priors.elbow(side);
 }
@@ -288,10 +288,10 @@ void add_arm_contacts(unsigned parts, Priors& priors) {
   priors.limbs_apart(kWrist, kHand, kWrist + 1, kHand + 1);
 }
 
-void add_trunk_and_legs(const BodyState& body, const Observation& observation,
-                        const RefinedParams& params, Priors& priors) {
+void add_trunk_and_legs(const Observation& observation, const RefinedParams& params,
+                        Priors& priors) {
   for (int side = 0; side < 2; ++side) {
-    add_proportions(body, side, false, priors);
+    add_proportions(side, false, priors);
     priors.knee(side);
     if (observation.floor_m) priors.ground(side, observation.up, *observation.floor_m);
   }
@@ -310,7 +310,7 @@ void add_prior_terms(const BodyState& body, const Cones& cones, const Observatio
                      unsigned parts, const RefinedParams& params, NormalEquations& equations) {
   Priors priors(body, cones, equations);
   const bool trunk = (parts & bit(Part::kTrunk)) != 0;
-  if (trunk) add_trunk_and_legs(body, observation, params, priors);
+  if (trunk) add_trunk_and_legs(observation, params, priors);
   for (int side = 0; side < 2; ++side) {
     if ((parts & arm_bit(side)) != 0) {
       add_arm(body, side, priors);

@@ -27,7 +27,7 @@ struct RefinedParams {
   /// Rotations tried about gravity: every 30 degrees; the solver converges from 25 degrees away.
   int yaw_steps = 12;
   /// Starts whose arms are searched. Tuned.
-  int starts_kept = 3;
+  int starts_kept = 4;
   /// Arm postures tried for each arm of a start. Tuned.
   int arm_postures_per_start = 16;
   /// Poses that the moves (flip, arms, legs) try to better, rounds of them, arm postures for each.

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/cloud/segment.hpp"
+#include "modules/pose_fitter/refined/body_state.hpp"
+
+namespace limbcast::pose_fitter::testing {
+
+/// The camera of the synthetic views: VGA, 520 px, 1.2 m over the floor, level.
+PinholeCamera camera();
+Stamp stamp();
+
+/// A body of 1.75 m that stands `distance_m` away, turned by `yaw_rad` from facing the camera, arms
+/// hanging.
+refined::BodyState standing_body(double distance_m, double yaw_rad);
+/// Puts the straight arm of `side` (0 left) along `direction` (camera frame), the shoulder with it.
+void point_with(refined::BodyState& body, int side, const Eigen::Vector3d& direction);
+
+/// What a sensor without noise sees of the body before a wall 2 m behind it. `occluder_u`: columns
+/// from there on are hidden by a board 0.6 m before the body.
+Segment seen(const refined::BodyState& body, int occluder_u = 1 << 20);
+
+}  // namespace limbcast::pose_fitter::testing

@@ -1,0 +1,194 @@
+#include "modules/pose_fitter/refined/refined_fitter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "modules/pose_fitter/refined/solver.hpp"
+#include "tests/pose_fitter/refined_body.hpp"
+
+namespace limbcast::pose_fitter {
+namespace {
+
+using refined::BodyState;
+
+constexpr double kDegree = M_PI / 180.0;
+/// The body is the fitter's own, without noise: what is left are priors that pull to the mean [m].
+constexpr float kJointToleranceM = 0.06F;
+
+float error_m(const BodyPose& pose, Joint joint, const BodyState& body) {
+  return (pose[joint].position_m - body.points[index(joint)].cast<float>()).norm();
+}
+
+float angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
+  return std::acos(std::min(1.0F, a.dot(b.normalized().cast<float>()))) /
+         static_cast<float>(kDegree);
+}
+
+class RefinedFitterAtYaw : public ::testing::TestWithParam<int> {};
+
+TEST_P(RefinedFitterAtYaw, FindsTheJointsOfAStandingBodyOnTheirSides) {
+  const BodyState body = testing::standing_body(2.5, GetParam() * kDegree);
+
+  const auto pose = RefinedFitter().fit(testing::seen(body), testing::stamp());
+
+  ASSERT_TRUE(pose);
+  for (const Joint joint :
+       {Joint::kHead, Joint::kNeck, Joint::kChest, Joint::kPelvis, Joint::kShoulderLeft,
+        Joint::kShoulderRight, Joint::kKneeLeft, Joint::kKneeRight}) {
+    EXPECT_TRUE((*pose)[joint].valid);
+    EXPECT_LT(error_m(*pose, joint, body), kJointToleranceM) << kJointNames[index(joint)];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllAround, RefinedFitterAtYaw, ::testing::Values(0, 40, -40, 150));
+
+TEST(RefinedFitter, TellsWhereAndWithWhichArmAPersonPoints) {
+  for (const int side : {0, 1}) {
+    BodyState body = testing::standing_body(2.5, 10.0 * kDegree);
+    const Eigen::Vector3d direction =
+        Eigen::Vector3d(side == 0 ? 1.0 : -1.0, -0.1, -0.6).normalized();
+    testing::point_with(body, side, direction);
+
+    const auto pose = RefinedFitter().fit(testing::seen(body), testing::stamp());
+
+    ASSERT_TRUE(pose);
+    ASSERT_EQ(pose->pointing.size(), 1U);
+    EXPECT_EQ(pose->pointing[0].side, side == 0 ? Side::kLeft : Side::kRight);
+    EXPECT_LT(angle_deg(pose->pointing[0].direction, direction), 4.0F);
+    EXPECT_GT(pose->pointing[0].sigma_rad, 0.0F);
+  }
+}
+
+TEST(RefinedFitter, ReportsNoPointingWhenArmsHang) {
+  const auto pose =
+      RefinedFitter().fit(testing::seen(testing::standing_body(2.5, 0.0)), testing::stamp());
+
+  ASSERT_TRUE(pose);
+  EXPECT_TRUE(pose->pointing.empty());
+}
+
+TEST(RefinedFitter, ReportsNoDirectionOfAnArmBehindABoard) {
+  BodyState body = testing::standing_body(2.5, 0.0);
+  testing::point_with(body, 0, {1.0, 0.0, -0.3});
+  // The left shoulder stands 0.17 m to the image's right: the board begins there.
+  const int board_u = 320 + static_cast<int>(520.0 * 0.17 / 2.5);
+
+  const auto pose = RefinedFitter().fit(testing::seen(body, board_u), testing::stamp());
+
+  ASSERT_TRUE(pose);
+  for (const Pointing& pointing : pose->pointing) EXPECT_NE(pointing.side, Side::kLeft);
+}
+
+TEST(RefinedFitter, KeepsTheBodyOutOfFreeSpace) {
+  BodyState body = testing::standing_body(2.5, 0.0);
+  testing::point_with(body, 1, {-1.0, 0.0, -0.2});
+  const Segment segment = testing::seen(body);
+
+  const auto pose = RefinedFitter().fit(segment, testing::stamp());
+
+  ASSERT_TRUE(pose);
+  const RangeImage& image = *segment.range_image;
+  for (const JointEstimate& joint : pose->joints) {
+    if (!joint.valid) continue;
+    const Eigen::Vector2f pixel = image.camera.project(joint.position_m);
+    const auto u = static_cast<std::size_t>(std::lround(pixel.x()));
+    const auto v = static_cast<std::size_t>(std::lround(pixel.y()));
+    EXPECT_EQ(image.labels[v * image.camera.width + u], PixelLabel::kPerson);
+  }
+}
+
+TEST(RefinedFitter, GivesTheSamePoseEveryTime) {
+  BodyState body = testing::standing_body(3.0, 30.0 * kDegree);
+  testing::point_with(body, 0, {1.0, -0.2, -0.5});
+  const Segment segment = testing::seen(body);
+  const RefinedFitter fitter;
+
+  const auto first = fitter.fit(segment, testing::stamp());
+  const auto second = fitter.fit(segment, testing::stamp());
+
+  ASSERT_TRUE(first && second);
+  for (int i = 0; i < kJointCount; ++i) {
+    EXPECT_EQ(first->joints[i].position_m, second->joints[i].position_m);
+    EXPECT_EQ(first->joints[i].confidence, second->joints[i].confidence);
+  }
+}
+
+TEST(RefinedFitter, AnswersInTheStampsFrameWhenTheImageIsTurned) {
+  BodyState body = testing::standing_body(2.5, 0.0);
+  Segment segment = testing::seen(body);
+  // The same view as if the sensor's frame had x forward, y left, z up.
+  Eigen::Matrix3f turned;
+  turned << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  segment.range_image->frame_from_image = turned;
+  segment.seed_m = turned * segment.seed_m;
+  Stamp stamp = testing::stamp();
+  stamp.gravity.down = turned * stamp.gravity.down;
+
+  const auto pose = RefinedFitter().fit(segment, stamp);
+
+  ASSERT_TRUE(pose);
+  const Eigen::Vector3f head = turned * body.points[refined::kHead].cast<float>();
+  EXPECT_LT(((*pose)[Joint::kHead].position_m - head).norm(), kJointToleranceM);
+}
+
+TEST(RefinedFitter, FitsPointsWithoutARangeImage) {
+  const BodyState body = testing::standing_body(2.5, 0.0);
+  Segment segment = testing::seen(body);
+  segment.range_image.reset();
+
+  const auto pose = RefinedFitter().fit(segment, testing::stamp());
+
+  ASSERT_TRUE(pose);
+  EXPECT_LT(error_m(*pose, Joint::kHead, body), 0.1F);
+  EXPECT_LT(error_m(*pose, Joint::kPelvis, body), 0.1F);
+}
+
+TEST(RefinedFitter, FindsNobodyInTooFewPoints) {
+  Segment segment;
+  EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
+  segment.seed_m = {0.0F, 0.0F, 2.0F};
+  segment.points_m.assign(10, segment.seed_m);
+  EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
+}
+
+TEST(RefinedFitter, FindsNobodyInAWall) {
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.range_image->depth_m.assign(segment.range_image->depth_m.size(), 2.5F);
+  segment.range_image->labels.assign(segment.range_image->labels.size(), PixelLabel::kPerson);
+
+  EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
+}
+
+TEST(RefinedCost, HasTheGradientOfItsDifferences) {
+  BodyState body = testing::standing_body(2.5, 20.0 * kDegree);
+  const Segment segment = testing::seen(body);
+  const RefinedParams params;
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  ASSERT_TRUE(observation);
+  // Off the minimum, so that the gradient is not zero.
+  for (auto& point : body.points) point += Eigen::Vector3d(0.01, -0.008, 0.012);
+  refined::Solver solver(*observation, params);
+  // Priors only: the data term re-assigns points and rounds pixels on the way.
+  const auto cost_at = [&](const BodyState& at) {
+    refined::NormalEquations equations;
+    equations.clear(true);
+    add_prior_terms(at, make_cones_of(at), *observation, refined::kAllParts, params, equations);
+    return equations;
+  };
+  const refined::NormalEquations here = cost_at(body);
+  for (int unknown = 0; unknown < refined::kLogStature; ++unknown) {
+    // The shoulders' mean follows the arm; the fitter holds it fixed within a step.
+    const int point = unknown / 3;
+    if (point >= refined::kShoulder && point < refined::kWrist) continue;
+    constexpr double kStep = 1e-5;
+    refined::Step step = refined::Step::Zero();
+    step[unknown] = kStep;
+    const double difference =
+        (cost_at(moved(body, step)).cost - cost_at(moved(body, -step)).cost) / (2.0 * kStep);
+    EXPECT_NEAR(here.gradient[unknown], difference, 0.02 * std::abs(difference) + 0.1) << unknown;
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::pose_fitter
