@@ -62,7 +62,7 @@ Material SceneBuilder::some_material() {
   return material;
 }
 
-void SceneBuilder::room() {
+void SceneBuilder::room(const std::vector<Circle>& keep_free) {
   Material floor = rng_.chance(0.4) ? wood() : some_material();
   floor.scale_m = static_cast<float>(rng_.uniform(0.05, 0.25));
   box({0, -0.05, 10}, {80, 0.1, 80}, 0.0, floor);
@@ -77,8 +77,14 @@ void SceneBuilder::room() {
     }
     return;
   }
-  const double back = rng_.uniform(4.8, 8.5);
-  const double half = rng_.uniform(2.2, 4.5);
+  double back = rng_.uniform(4.8, 8.5);
+  double half = rng_.uniform(2.2, 4.5);
+  if (rng_.chance(0.85)) {
+    for (const Circle& circle : keep_free) {
+      back = std::max(back, circle.z_m + circle.radius_m + 0.4);
+      half = std::max(half, std::abs(circle.x_m) + circle.radius_m + 0.4);
+    }
+  }
   const double height = rng_.uniform(2.3, 3.2);
   const double yaw = rng_.normal(0.0, 0.12);
   const Eigen::AngleAxisd turn(yaw, Vector3d::UnitY());

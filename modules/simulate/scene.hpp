@@ -21,8 +21,9 @@ class SceneBuilder {
  public:
   explicit SceneBuilder(Rng rng) : rng_(rng) {}
 
-  /// Floor and, mostly, walls and ceiling; else a yard with a house and trees far away.
-  void room();
+  /// Floor and, mostly, walls and ceiling; else a yard with a house and trees far away. Mostly the
+  /// walls keep away from the circles; some people lean against them.
+  void room(const std::vector<Circle>& keep_free);
   /// `count` pieces of furniture that leave the circles free.
   void furniture(int count, const std::vector<Circle>& keep_free);
   /// Something between the camera and `place` that hides a part of what stands there.
