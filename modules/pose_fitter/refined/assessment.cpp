@@ -14,7 +14,7 @@ constexpr Real kDegree = M_PI / 180.0;
 /// ones; README.md has the figures. Evidence beyond this many units of cost adds nothing.
 constexpr Real kMostEvidence = 30.0;
 /// A joint less sure than this is left out.
-constexpr Real kLeastJointConfidence = 0.15;
+constexpr Real kLeastJointConfidence = 0.08;
 /// A direction less sure than this, or with less to speak for it, is not told.
 constexpr Real kLeastPointingConfidence = 0.65;
 /// A body less sure than this is no person.
