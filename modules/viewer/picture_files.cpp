@@ -1,0 +1,54 @@
+#include "modules/viewer/picture_files.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "common/input_error.hpp"
+
+namespace limbcast::viewer {
+namespace {
+
+/// Fast rather than small: the pictures are looked at and thrown away.
+const std::vector<int> kPngParameters = {cv::IMWRITE_PNG_COMPRESSION, 1};
+
+void write_picture(const std::string& path, const cv::Mat& image) {
+  if (!cv::imwrite(path, image, kPngParameters))
+    throw std::runtime_error(path + ": cannot be written");
+}
+
+int codec_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  if (ending == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+  throw InputError(path + ": no video format has this ending; use .avi or .mp4");
+}
+
+}  // namespace
+
+DrawnFrame draw_frame(const ViewFrame& frame) {
+  DrawnFrame drawn{frame.number, draw_pictures(frame), {}};
+  drawn.sheet = draw_sheet(frame, drawn.pictures);
+  return drawn;
+}
+
+void write_pictures(const std::string& folder, const DrawnFrame& frame) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "frame_%05d_", frame.number);
+  const std::string begin = (std::filesystem::path(folder) / name).string();
+  for (const Picture& picture : frame.pictures)
+    write_picture(begin + picture.name + ".png", picture.image);
+  write_picture(begin + "sheet.png", frame.sheet);
+}
+
+SheetVideo::SheetVideo(std::string path, double frames_per_s)
+    : path_(std::move(path)), frames_per_s_(frames_per_s), codec_(codec_of(path_)) {}
+
+void SheetVideo::write(const DrawnFrame& frame) {
+  if (!writer_.isOpened() && !writer_.open(path_, codec_, frames_per_s_, frame.sheet.size()))
+    throw std::runtime_error(path_ + ": cannot be written");
+  writer_.write(frame.sheet);
+}
+
+}  // namespace limbcast::viewer

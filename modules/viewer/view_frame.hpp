@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include "common/cloud/cloud.hpp"
+#include "common/cloud/segment.hpp"
+#include "common/human_model/body_pose.hpp"
+
+namespace limbcast::viewer {
+
+/// All that is known about one moment of one sensor; what did not come is not there.
+struct ViewFrame {
+  Stamp stamp;
+  int number = 0;  ///< counts the frames that are shown, from 0
+  std::optional<Cloud> cloud;
+  std::optional<Segments> segments;
+  std::optional<BodyPoses> poses;
+  std::optional<BodyPoses> truth;  ///< as on GROUND_TRUTH
+};
+
+}  // namespace limbcast::viewer

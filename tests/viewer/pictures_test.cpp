@@ -1,0 +1,142 @@
+#include "modules/viewer/pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "tests/viewer/scene.hpp"
+
+namespace limbcast::viewer {
+namespace {
+
+const cv::Vec3b kWall(90, 90, 90);
+
+ViewFrame whole_frame() {
+  ViewFrame frame;
+  frame.cloud = wall();
+  frame.poses = pointing_arm();
+  frame.segments.emplace();
+  return frame;
+}
+
+cv::Vec3b pixel(const cv::Mat& picture, int u, int v) { return picture.at<cv::Vec3b>(v, u); }
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+TEST(Pictures, DrawJointsAndLinksWhereTheCameraSeesThem) {
+  const cv::Mat picture = draw_skeleton(whole_frame());
+  ASSERT_EQ(picture.size(), cv::Size(160, 120));
+  // 120 px * 1 m / 3 m = 40 px right of the principal point, and so on.
+  for (const int u : {120, 100, 80}) EXPECT_GT(pixel(picture, u, 60)[0], 200) << u;
+  // Between elbow and shoulder: the orange of right arms.
+  EXPECT_GT(pixel(picture, 110, 60)[2], 200);
+  EXPECT_LT(pixel(picture, 110, 60)[0], 100);
+  EXPECT_EQ(pixel(picture, 100, 30), kWall);
+}
+
+TEST(Pictures, DrawTheRayBeyondTheHand) {
+  const cv::Mat with_ray = draw_skeleton(whole_frame());
+  // Green 1 m beyond the wrist: 40 px.
+  EXPECT_GT(pixel(with_ray, 40, 60)[1], 200);
+  ViewFrame frame = whole_frame();
+  frame.poses->persons[0].pointing.clear();
+  EXPECT_EQ(pixel(draw_skeleton(frame), 40, 60), kWall);
+}
+
+TEST(Pictures, LeaveOutJointsThatAreNotValid) {
+  ViewFrame frame = whole_frame();
+  frame.poses->persons[0].pointing.clear();
+  frame.poses->persons[0][Joint::kWristRight].valid = false;
+  const cv::Mat picture = draw_skeleton(frame);
+  EXPECT_EQ(pixel(picture, 80, 60), kWall);
+  EXPECT_GT(pixel(picture, 100, 60)[0], 200);
+}
+
+TEST(Pictures, ShowTheTruthBesideThePoses) {
+  ViewFrame frame = whole_frame();
+  frame.truth = pointing_arm();
+  for (JointEstimate& joint : frame.truth->persons[0].joints) joint.position_m.y() = 0.75F;
+  // 30 px lower.
+  EXPECT_EQ(pixel(draw_skeleton(whole_frame()), 95, 90), kWall);
+  EXPECT_GT(pixel(draw_skeleton(frame), 95, 90)[0], 200);
+}
+
+TEST(Pictures, ColorPointsOfASegmentInItsColor) {
+  ViewFrame frame = whole_frame();
+  Segment segment;
+  segment.seed_m = {1.0F, 1.0F, 3.0F};
+  segment.points_m.emplace_back(0.0F, 0.0F, 3.0F);
+  frame.segments->segments.push_back(segment);
+  const cv::Mat picture = draw_segments_in_colors(frame);
+  EXPECT_GT(pixel(picture, 80, 60)[2], pixel(picture, 80, 60)[0]);
+  EXPECT_EQ(pixel(picture, 40, 60)[2], pixel(picture, 40, 60)[0]);
+}
+
+TEST(Pictures, MarkPartsInSkinColor) {
+  ViewFrame frame = whole_frame();
+  Segment segment;
+  RangeImage window;
+  window.camera = {4, 4, 120.0, 120.0, 0.0, 0.0};
+  window.origin_u = 20;
+  window.origin_v = 30;
+  window.is_skin.assign(16, 1);
+  segment.range_image = window;
+  segment.seed_m = {1.0F, 1.0F, 3.0F};
+  frame.segments->segments.push_back(segment);
+  const cv::Mat picture = draw_input(frame);
+  EXPECT_NE(pixel(picture, 20, 30), kWall);
+  EXPECT_EQ(pixel(picture, 19, 30), kWall);
+}
+
+TEST(Pictures, HolesAreBlackInTheDisparity) {
+  ViewFrame frame = whole_frame();
+  frame.cloud->points_m[60 * 160 + 100].setZero();
+  const cv::Mat picture = draw_disparity(frame);
+  EXPECT_EQ(pixel(picture, 100, 60), cv::Vec3b(0, 0, 0));
+  EXPECT_NE(pixel(picture, 101, 60), cv::Vec3b(0, 0, 0));
+}
+
+TEST(Pictures, ShowThePosesFromTheSide) {
+  ViewFrame nobody = whole_frame();
+  nobody.poses->persons.clear();
+  EXPECT_FALSE(same(draw_skeleton_from_side(whole_frame()), draw_skeleton_from_side(nobody)));
+  EXPECT_FALSE(same(draw_skeleton_from_above(whole_frame()), draw_skeleton_from_above(nobody)));
+}
+
+TEST(Pictures, AFrameWithNobodyShowsTheImage) {
+  ViewFrame frame = whole_frame();
+  frame.poses->persons.clear();
+  EXPECT_EQ(
+      cv::norm(draw_skeleton(frame), cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(90)), cv::NORM_INF),
+      0.0);
+}
+
+TEST(Pictures, WorkWhateverIsMissing) {
+  for (int missing = 0; missing < 16; ++missing) {
+    ViewFrame frame = whole_frame();
+    frame.truth = pointing_arm();
+    if (missing & 1) frame.cloud.reset();
+    if (missing & 2) frame.segments.reset();
+    if (missing & 4) frame.poses.reset();
+    if (missing & 8) frame.truth.reset();
+    const auto pictures = draw_pictures(frame);
+    ASSERT_EQ(pictures.size(), 7U);
+    for (const Picture& picture : pictures) EXPECT_FALSE(picture.image.empty()) << picture.name;
+    EXPECT_FALSE(draw_sheet(frame, pictures).empty());
+  }
+}
+
+TEST(Pictures, AnUnorganizedCloudIsSeenFromTheSensor) {
+  ViewFrame frame = whole_frame();
+  frame.cloud->camera.reset();
+  frame.cloud->width *= frame.cloud->height;
+  frame.cloud->height = 1;
+  frame.cloud->colors.clear();
+  EXPECT_EQ(draw_skeleton(frame).size(), kPictureSize);
+  EXPECT_EQ(draw_pictures(frame).size(), 7U);
+}
+
+}  // namespace
+}  // namespace limbcast::viewer

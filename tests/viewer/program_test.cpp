@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "tests/common/run_program.hpp"
+#include "tests/viewer/scene.hpp"
+
+namespace limbcast::viewer {
+namespace {
+
+using limbcast::testing::Outcome;
+using limbcast::testing::run_program;
+using limbcast::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+Outcome view(const std::vector<std::string>& arguments) {
+  return run_program("limbcast-viewer", arguments);
+}
+
+void write_log(const std::string& path, int num_frames, bool with_clouds) {
+  lcm_io::LogWriter log(path);
+  for (int i = 1; i <= num_frames; ++i) {
+    if (with_clouds) log.write(i, "POINT_CLOUD", lcm_io::to_message(wall(i)));
+    log.write(i, "BODY_POSES", lcm_io::to_message(pointing_arm(i)));
+  }
+  log.close();
+}
+
+std::size_t num_files(const std::string& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    count += entry.is_regular_file() ? 1 : 0;
+  return count;
+}
+
+TEST(ViewerProgram, WritesEachPictureAndASheet) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 3, true);
+  const Outcome outcome = view({folder / "out.log", "--png", folder / "pictures"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(num_files(folder / "pictures"), 3U * 8U);
+  const cv::Mat picture = cv::imread(folder / "pictures/frame_00002_skeleton.png");
+  ASSERT_EQ(picture.size(), cv::Size(160, 120));
+  EXPECT_GT(picture.at<cv::Vec3b>(60, 100)[0], 200);
+}
+
+TEST(ViewerProgram, DrawsEveryNthFrameUpToAMaximum) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 9, true);
+  const Outcome outcome =
+      view({folder / "out.log", "--png", folder / "pictures", "--every", "3", "--max", "2"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(num_files(folder / "pictures"), 2U * 8U);
+  EXPECT_TRUE(std::filesystem::exists(folder / "pictures/frame_00003_sheet.png"));
+}
+
+TEST(ViewerProgram, DrawsPosesOfALogWithoutClouds) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, false);
+  const Outcome outcome = view({folder / "out.log", "--png", folder / "pictures"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(num_files(folder / "pictures"), 8U);
+}
+
+TEST(ViewerProgram, WritesAVideo) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 2, true);
+  const Outcome outcome = view({folder / "out.log", "--video", folder / "out.avi"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_GT(std::filesystem::file_size(folder / "out.avi"), 1000U);
+}
+
+TEST(ViewerProgram, SaysWhenThereIsNothingToDraw) {
+  const TemporaryFolder folder;
+  lcm_io::LogWriter log(folder / "out.log");
+  log.write(1, "GROUND_TRUTH", lcm_io::to_message(pointing_arm()));
+  log.close();
+  const Outcome outcome = view({folder / "out.log", "--png", folder / "pictures"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("limbcast-replay"));
+}
+
+TEST(ViewerProgram, RefusesWhatIsNoLog) {
+  const TemporaryFolder folder;
+  folder.write("text.log", "no log at all, only words, and enough of them for a header");
+  for (const std::string& log : {folder / "text.log", folder / "missing.log"}) {
+    const Outcome outcome = view({log, "--png", folder / "pictures"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(log));
+  }
+}
+
+TEST(ViewerProgram, RefusesOutputsItCannotWrite) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, true);
+  folder.write("file", "");
+  EXPECT_EQ(view({folder / "out.log", "--png", folder / "file"}).exit_code, 2);
+  EXPECT_EQ(view({folder / "out.log", "--video", folder / "out.gif"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace limbcast::viewer
