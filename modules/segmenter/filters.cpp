@@ -1,17 +1,6 @@
 #include "modules/segmenter/filters.hpp"
 
-#include <algorithm>
-
 namespace limbcast::segmenter {
-namespace {
-
-std::optional<Rejection> not_head(bool fails) {
-  if (!fails) return std::nullopt;
-  return Rejection{SegmentFilter::kNotHeadShaped, 0.0F, 0.5F};
-}
-
-}  // namespace
-
 std::optional<Rejection> check_validity(const ClusterFigures& figures, const FilterParams& params) {
   const auto points = static_cast<float>(figures.points);
   // Limits are areas, so that they hold at any distance and resolution; the figures are points, as
@@ -31,16 +20,6 @@ std::optional<Rejection> check_validity(const ClusterFigures& figures, const Fil
     return Rejection{SegmentFilter::kTooSparse, figures.density, params.min_density};
   }
   return std::nullopt;
-}
-
-std::optional<Rejection> check_person(const ClusterFigures& figures, const PersonParams& params) {
-  return not_head(figures.head_width_m < params.min_head_width_m ||
-                  figures.head_width_m > params.max_head_width_m ||
-                  figures.shoulder_width_m < params.min_shoulder_width_m ||
-                  figures.shoulder_width_m > params.max_shoulder_width_m ||
-                  figures.drop_m < params.min_drop_m ||
-                  figures.edge_share > params.max_edge_share ||
-                  figures.offset_m > params.max_offset_m);
 }
 
 }  // namespace limbcast::segmenter

@@ -19,7 +19,4 @@ struct Rejection {
 /// `point_area_m2`: surface that one point of the cluster stands for, facing the sensor (mean).
 std::optional<Rejection> check_validity(const ClusterFigures& figures, const FilterParams& params);
 
-/// Whether the cluster is shaped as a person around the head it was grown from.
-std::optional<Rejection> check_person(const ClusterFigures& figures, const PersonParams& params);
-
 }  // namespace limbcast::segmenter

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/cloud/segment.hpp"
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
 
@@ -14,6 +15,8 @@ struct HeadCandidate {
   Eigen::Vector3f surface_m;  ///< point of the lattice there, level frame
   Eigen::Vector3f center_m;   ///< of the head behind it, level frame
   float score = 0.0F;         ///< template's, 0 to 2.48
+  SeedKind kind = SeedKind::kHeadShape;
+  float odds = 0.0F;  ///< log odds that this is a head, of the classifier
 };
 
 /// Heads by their shape: something as large as a head, nothing of its depth beside and over it,

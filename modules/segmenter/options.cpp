@@ -43,10 +43,10 @@ Params to_params(const SegmenterOptions& options) {
                                                           {"both", SeedSource::kBoth}};
   static const std::map<std::string, Growing> growing = {{"refined", Growing::kRefined},
                                                          {"paper", Growing::kPaper}};
-  static const std::map<std::string, NeighborSearch> search = {
-      {"auto", NeighborSearch::kAuto},
-      {"kdtree", NeighborSearch::kKdTree},
-      {"lattice", NeighborSearch::kLattice}};
+  static const std::map<std::string, SearchStructure> search = {
+      {"auto", SearchStructure::kAuto},
+      {"kdtree", SearchStructure::kKdTree},
+      {"lattice", SearchStructure::kLattice}};
   Params params = options.params;
   params.seeds = seeds.at(options.seeds);
   params.growing = growing.at(options.growing);

@@ -19,7 +19,7 @@ enum class Growing : std::int8_t {
 };
 
 /// What answers "which points are near" for Algorithm 1.
-enum class NeighborSearch : std::int8_t {
+enum class SearchStructure : std::int8_t {
   kAuto,     ///< the lattice for an organised cloud, the kd-tree for any other
   kKdTree,   ///< the paper's choice
   kLattice,  ///< organised clouds only
@@ -87,31 +87,34 @@ struct HeadShapeParams {
   /// Height of a head's centre over the ground [m]: a sitting child, a tall person.
   float min_height_m = 0.50F, max_height_m = 2.15F;
   /// Lowest score of a candidate; the score runs from 0 to 2.48.
-  float min_score = 1.9F;
+  float min_score = 1.7F;
   /// Candidates nearer than this to a better one are the same head [m].
   float separation_m = 0.22F;
   /// Strongest candidates kept in a frame.
   int max_candidates = 40;
 };
 
-/// Figures of a cluster around a head that a person's must keep (see cluster_figures.hpp).
-struct PersonParams {
-  float min_area_m2 = 0.09F;
-  float min_head_width_m = 0.07F, max_head_width_m = 0.34F;
-  float min_shoulder_width_m = 0.18F, max_shoulder_width_m = 1.25F;
-  float min_drop_m = 0.35F;
-  float max_edge_share = 0.12F;
-  float max_offset_m = 0.25F;
+/// The trained classifiers (head_classifier.hpp).
+struct ClassifierParams {
+  /// Lowest log odds, by the depths around it, of a candidate that is grown. Low: the cluster tells
+  /// more.
+  float min_head_odds = -3.0F;
+  /// The same for a skin-coloured part that the template does not take for a head.
+  float min_skin_head_odds = 0.0F;
+  /// Lowest log odds, by its cluster, of a person. Higher: fewer false people, more missed.
+  float min_person_odds = 0.0F;
+  /// Candidates nearer than this to a likelier one are parts of the same head or its shoulders [m].
+  float separation_m = 0.28F;
 };
 
 /// The four filters of section III-B.2.
 struct FilterParams {
   /// Smallest and largest visible surface of a person [m^2], counted in points of the sensor at the
   /// cluster's distance.
-  float min_area_m2 = 0.09F;
-  float max_area_m2 = 1.6F;
+  float min_area_m2 = 0.03F;
+  float max_area_m2 = 2.2F;
   /// How far the seed must stand over the cluster's centroid along gravity [m].
-  float min_seed_over_centroid_m = 0.12F;
+  float min_seed_over_centroid_m = 0.03F;
   /// Share of the sensor's rays through the cluster's outline that must have hit it.
   float min_density = 0.25F;
 };
@@ -121,25 +124,34 @@ struct SkinParams {
   /// Log of the likelihood ratio above which a colour is skin (Jones and Rehg 2002).
   float min_log_ratio = 0.0F;
   /// Surface of a part that may be a face or a hand [m^2].
-  float min_area_m2 = 0.0015F, max_area_m2 = 0.12F;
-  /// Fewest pixels of a part.
-  int min_pixels = 25;
+  float min_area_m2 = 0.004F, max_area_m2 = 0.12F;
+  /// Fewest points of a part in the thinned lattice.
+  int min_points = 8;
   /// Depth step that parts two skin-coloured surfaces [m].
   float max_step_m = 0.08F;
+};
+
+/// The virtual image of a cloud without a camera.
+struct PanoramaParams {
+  /// Pixels a radian; 150 finds heads in 64-ring and in dense scans alike (laser_dev).
+  float focal_px = 150.0F;
+  /// Beams of a scanner stand up to twice this apart [px]: 3 degrees.
+  int gap_px = 4;
 };
 
 struct Params {
   SeedSource seeds = SeedSource::kAuto;
   Growing growing = Growing::kRefined;
-  NeighborSearch search = NeighborSearch::kAuto;
+  SearchStructure search = SearchStructure::kAuto;
   GroundParams ground;
   ReachParams reach;
   PaperGrowingParams paper;
   JointGrowingParams joint;
   HeadShapeParams head;
-  PersonParams person;
+  ClassifierParams classifier;
   FilterParams filters;
   SkinParams skin;
+  PanoramaParams panorama;
   /// Space kept around a cluster in its range image [m].
   float range_image_margin_m = 0.15F;
 };

@@ -35,13 +35,18 @@ Box widen(const Box& box, const Cloud& cloud, int margin_px) {
 
 }  // namespace
 
-void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& labels,
-                      std::int16_t label, float margin_m, const SkinColor& skin,
-                      float min_log_ratio, Segment& segment) {
+bool is_skin_colored(const RangeImageSource& source, std::size_t point) {
+  return source.skin.log_ratio(source.cloud.colors[point]) > source.min_log_ratio;
+}
+
+void fill_from_camera(const RangeImageSource& source, std::int16_t label, Segment& segment) {
+  const Cloud& cloud = source.cloud;
+  const std::vector<std::int16_t>& labels = source.labels;
   float nearest_m = 0.0F;
   const Box tight = bounding_box(cloud, labels, label, nearest_m);
   if (tight.empty()) return;
-  const auto margin_px = static_cast<int>(std::ceil(margin_m * cloud.camera->fx / nearest_m));
+  const auto margin_px =
+      static_cast<int>(std::ceil(source.margin_m * cloud.camera->fx / nearest_m));
   const Box box = widen(tight, cloud, margin_px);
 
   RangeImage image;
@@ -67,8 +72,7 @@ void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& label
       const float z_m = cloud.points_m[i].z();
       const bool hole = !(z_m > 0.0F) || !std::isfinite(z_m);
       const bool own = !hole && labels[i] == label;
-      const auto is_skin =
-          static_cast<std::uint8_t>(colored && skin.log_ratio(cloud.colors[i]) > min_log_ratio);
+      const auto is_skin = static_cast<std::uint8_t>(colored && is_skin_colored(source, i));
       image.depth_m.push_back(hole ? 0.0F : z_m);
       image.labels.push_back(hole  ? PixelLabel::kUnknown
                              : own ? PixelLabel::kPerson

@@ -9,11 +9,25 @@
 
 namespace limbcast::segmenter {
 
-/// Fills points_m, is_skin and range_image of `segment` with the pixels of `cloud` whose `labels`
-/// equal `label`, and what the sensor saw up to `margin_m` beside them. `skin` is only asked where
-/// there is colour.
-void fill_from_camera(const Cloud& cloud, const std::vector<std::int16_t>& labels,
-                      std::int16_t label, float margin_m, const SkinColor& skin,
-                      float min_log_ratio, Segment& segment);
+/// What a range image is cut from, and how.
+struct RangeImageSource {
+  const Cloud& cloud;
+  const std::vector<std::int16_t>& labels;  ///< one for each point of the cloud
+  const SkinColor& skin;                    ///< only asked where there is colour
+  float min_log_ratio;                      ///< above which a colour is skin
+  float margin_m;                           ///< kept around the person
+};
+
+bool is_skin_colored(const RangeImageSource& source, std::size_t point);
+
+/// Fills points_m, is_skin and range_image of `segment` from an organised cloud: the pixels that
+/// carry `label` and what the sensor saw around them.
+void fill_from_camera(const RangeImageSource& source, std::int16_t label, Segment& segment);
+
+/// The same from an unorganised cloud: the range image is rendered from the sensor's origin towards
+/// the middle of the points, upright (`down` points to its bottom), `focal_px` pixels a radian; a
+/// pixel without a point takes the nearest one's within `gap_px`.
+void fill_from_scan(const RangeImageSource& source, std::int16_t label, const Eigen::Vector3f& down,
+                    float focal_px, int gap_px, Segment& segment);
 
 }  // namespace limbcast::segmenter

@@ -2,102 +2,139 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
-#include "modules/segmenter/cluster_figures.hpp"
-#include "modules/segmenter/filters.hpp"
 #include "modules/segmenter/ground.hpp"
 #include "modules/segmenter/head_shape.hpp"
-#include "modules/segmenter/joint_growing.hpp"
-#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/panorama.hpp"
+#include "modules/segmenter/paper_search.hpp"
+#include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
+#include "modules/segmenter/skin_seeds.hpp"
 
 namespace limbcast::segmenter {
 namespace {
 
 /// Focal length of the thinned lattice [px]: a head at 4 m is then 12 pixels wide.
 constexpr double kLatticeFocal_px = 260.0;
-constexpr float kMaxTemplateScore = 2.48F;
 
-std::optional<Rejection> check(const ClusterFigures& figures, const Params& params) {
-  if (const auto rejection = check_validity(figures, params.filters)) return rejection;
-  return check_person(figures, params.person);
-}
+/// A skin part whose middle is this near to a head's is its face.
+constexpr float kSameSeed_m = 0.15F;
 
-/// A shoulder, a breast or a knee looks like a head to the template; what stands over it tells.
-std::optional<Rejection> check_above(const std::vector<HeadCandidate>& heads, std::size_t k) {
-  for (const HeadCandidate& other : heads) {
-    const Eigen::Vector3f d = other.center_m - heads[k].center_m;
-    if (d.z() > 0.12F && d.z() < 0.7F && d.head<2>().norm() < 0.40F &&
-        other.score > heads[k].score - 0.15F) {
-      return Rejection{SegmentFilter::kSamePerson, 1.0F, 0.5F};
-    }
-  }
-  return std::nullopt;
-}
-
-Segment make_segment(const HeadCandidate& head, const LevelFrame& frame) {
+Segment make_segment(const HeadCandidate& head, const LevelFrame& frame, float odds) {
   Segment segment;
   segment.seed_m = frame.to_sensor(head.surface_m);
-  segment.seed_kind = SeedKind::kHeadShape;
-  segment.seed_score = std::min(1.0F, head.score / kMaxTemplateScore);
+  segment.seed_kind = head.kind;
+  segment.seed_score = 1.0F / (1.0F + std::exp(-odds));
   return segment;
+}
+
+void reject(const Rejection& rejection, Segment& segment) {
+  segment.rejected_by = rejection.filter;
+  segment.filter_figure = rejection.figure;
+  segment.filter_limit = rejection.limit;
 }
 
 }  // namespace
 
 Segmenter::Segmenter(const Params& params) : params_(params) {}
 
+Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step) {
+  step = std::max(1, static_cast<int>(std::lround(cloud.camera->fx / kLatticeFocal_px)));
+  return thin(cloud, frame, step);
+}
+
 Segments Segmenter::segment(const Cloud& cloud) const {
   Segments result;
   result.stamp = cloud.stamp;
-  if (!cloud.organized() || cloud.points_m.empty()) return result;
   const LevelFrame frame =
       make_level_frame(cloud.stamp.gravity, find_ground(cloud, params_.ground));
-  const int step = std::max(1, static_cast<int>(std::lround(cloud.camera->fx / kLatticeFocal_px)));
-  const Lattice lattice = thin(cloud, frame, step);
+  int step = 1;
+  const Lattice lattice = cloud.organized() ? make_lattice(cloud, frame, step)
+                                            : render_panorama(cloud, frame, params_.panorama);
+  const std::vector<HeadCandidate> seeds = find_seeds(cloud, lattice);
+  const std::vector<std::int16_t> labels = params_.growing == Growing::kPaper
+                                               ? grow_as_paper(cloud, lattice, seeds, result)
+                                               : grow_refined(cloud, lattice, step, seeds, result);
+  cut_out(cloud, lattice, labels, result);
+  return result;
+}
 
-  std::vector<HeadCandidate> heads = find_heads(lattice, params_.head);
-  std::vector<Segment> rejected;
-  const auto reject = [&](std::size_t k, const Rejection& rejection) {
-    Segment segment = make_segment(heads[k], frame);
-    segment.rejected_by = rejection.filter;
-    segment.filter_figure = rejection.figure;
-    segment.filter_limit = rejection.limit;
-    rejected.push_back(std::move(segment));
-    heads.erase(heads.begin() + static_cast<std::ptrdiff_t>(k));
-  };
-  for (std::size_t k = heads.size(); k-- > 0;) {
-    if (const auto rejection = check_above(heads, k)) reject(k, *rejection);
+std::vector<HeadCandidate> Segmenter::find_seeds(const Cloud& cloud, const Lattice& lattice) const {
+  const bool skin = params_.seeds != SeedSource::kShape;
+  const bool shape = params_.seeds != SeedSource::kSkin;
+  std::vector<HeadCandidate> seeds;
+  if (shape) seeds = find_heads(lattice, params_.head);
+  const std::size_t heads = seeds.size();
+  if (!skin) return seeds;
+  for (const HeadCandidate& part : find_skin_parts(cloud, lattice, skin_, params_.skin)) {
+    const auto same =
+        std::find_if(seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(heads),
+                     [&](const HeadCandidate& head) {
+                       return (head.center_m - part.center_m).norm() < kSameSeed_m;
+                     });
+    if (same == seeds.begin() + static_cast<std::ptrdiff_t>(heads))
+      seeds.push_back(part);
+    else
+      same->kind = SeedKind::kBoth;
   }
-  // Candidates that are no heads steal points from the people beside them: the weakest one that
-  // fails goes, then all grow again without it.
-  std::vector<std::int16_t> labels;
-  for (bool changed = true; changed;) {
-    changed = false;
-    labels = grow_together(lattice, heads, params_.joint, params_.reach);
-    const std::vector<ClusterFigures> figures =
-        measure_clusters(lattice, heads, labels, params_.reach);
-    for (std::size_t k = heads.size(); k-- > 0 && !changed;) {
-      const auto rejection = check(figures[k], params_);
-      if (!rejection) continue;
-      reject(k, *rejection);
-      changed = true;
+  return seeds;
+}
+
+std::vector<std::int16_t> Segmenter::grow_refined(const Cloud& cloud, const Lattice& lattice,
+                                                  int step, const std::vector<HeadCandidate>& seeds,
+                                                  Segments& result) const {
+  const FoundPeople people = find_people(lattice, seeds, classifier_, params_);
+  for (std::size_t k = 0; k < people.heads.size(); ++k) {
+    result.segments.push_back(make_segment(people.heads[k], lattice.frame, people.person_odds[k]));
+  }
+  for (const RejectedHead& rejected : people.rejected) {
+    result.segments.push_back(make_segment(rejected.head, lattice.frame, rejected.head.odds));
+    reject(rejected.rejection, result.segments.back());
+  }
+  return cloud.organized() ? thicken(cloud, lattice, step, people.labels, params_.joint)
+                           : labels_of_points(cloud, lattice, people.labels, params_.joint);
+}
+
+std::vector<std::int16_t> Segmenter::grow_as_paper(const Cloud& cloud, const Lattice& lattice,
+                                                   const std::vector<HeadCandidate>& seeds,
+                                                   Segments& result) const {
+  const bool by_lattice = cloud.organized() && params_.search != SearchStructure::kKdTree;
+  const auto search = by_lattice ? make_lattice_search(cloud) : make_kd_tree_search(cloud);
+  std::vector<std::int16_t> labels(cloud.points_m.size(), kNobody);
+  for (const PaperCluster& cluster :
+       find_people_as_paper(cloud, lattice, seeds, *search, params_)) {
+    result.segments.push_back(make_segment(cluster.seed, lattice.frame, 0.0F));
+    if (cluster.rejection) {
+      reject(*cluster.rejection, result.segments.back());
+      continue;
+    }
+    // Where two people's clusters overlap, the first one's points are its own: a point is one
+    // person's.
+    const auto label = static_cast<std::int16_t>(result.segments.size() - 1);
+    for (const std::uint32_t i : cluster.points) {
+      if (labels[i] == kNobody) labels[i] = label;
     }
   }
+  return labels;
+}
 
-  const std::vector<std::int16_t> dense = thicken(cloud, lattice, step, labels, params_.joint);
-  for (std::size_t k = 0; k < heads.size(); ++k) {
-    Segment segment = make_segment(heads[k], frame);
-    fill_from_camera(cloud, dense, static_cast<std::int16_t>(k), params_.range_image_margin_m,
-                     skin_, params_.skin.min_log_ratio, segment);
-    result.segments.push_back(std::move(segment));
+void Segmenter::cut_out(const Cloud& cloud, const Lattice& lattice,
+                        const std::vector<std::int16_t>& labels, Segments& result) const {
+  const RangeImageSource source{cloud, labels, skin_, params_.skin.min_log_ratio,
+                                params_.range_image_margin_m};
+  const Eigen::Vector3f down = -lattice.frame.level_from_sensor.row(2).transpose();
+  for (std::size_t k = 0; k < result.segments.size(); ++k) {
+    Segment& segment = result.segments[k];
+    segment.id = static_cast<std::int32_t>(k);
+    if (!segment.valid()) continue;
+    const auto label = static_cast<std::int16_t>(k);
+    if (cloud.organized())
+      fill_from_camera(source, label, segment);
+    else
+      fill_from_scan(source, label, down, params_.panorama.focal_px, params_.panorama.gap_px,
+                     segment);
   }
-  std::move(rejected.begin(), rejected.end(), std::back_inserter(result.segments));
-  for (std::size_t k = 0; k < result.segments.size(); ++k)
-    result.segments[k].id = static_cast<std::int32_t>(k);
-  return result;
 }
 
 Segments segment(const Cloud& cloud, const Params& params) {

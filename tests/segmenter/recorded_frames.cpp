@@ -88,7 +88,7 @@ FrameReader::FrameReader(const std::string& folder, DepthFrom depth_from)
   std::set<std::string> paths;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().string();
-    for (const std::string suffix : {"_left.jpg", "_color.jpg", ".pcd"}) {
+    for (const std::string suffix : {"_left.jpg", "_depth.png", ".pcd"}) {
       if (file.size() <= suffix.size()) continue;
       const std::size_t at = file.size() - suffix.size();
       if (file.compare(at, std::string::npos, suffix) == 0) paths.insert(file.substr(0, at));

@@ -47,6 +47,7 @@ class FrameReader {
 
   /// Paths of the frames without their suffixes, sorted.
   const std::vector<std::string>& paths() const { return paths_; }
+  bool is_stereo() const { return stereo_.has_value(); }
   LoadedFrame read(const std::string& path) const;
 
  private:

@@ -1,5 +1,6 @@
 // Prints how well people are found and cut out, set by set: the tables of
-// modules/segmenter/README.md. limbcast-segmentation-figures [--true-depth] [--paper] [--verbose]
+// modules/segmenter/README.md. limbcast-segmentation-figures [--true-depth] [--paper] [--kdtree]
+// [--skin | --shape] [--verbose]
 // [--draw FOLDER] [SET...]
 
 #include <chrono>
@@ -231,6 +232,12 @@ Arguments read_arguments(int argc, char** argv) {
       arguments.depth_from = DepthFrom::kTruth;
     else if (word == "--paper")
       arguments.params.growing = Growing::kPaper;
+    else if (word == "--kdtree")
+      arguments.params.search = SearchStructure::kKdTree;
+    else if (word == "--skin")
+      arguments.params.seeds = SeedSource::kSkin;
+    else if (word == "--shape")
+      arguments.params.seeds = SeedSource::kShape;
     else if (word == "--verbose")
       arguments.verbose = true;
     else if (word == "--draw" && i + 1 < argc)

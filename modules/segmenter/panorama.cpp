@@ -1,0 +1,117 @@
+#include "modules/segmenter/panorama.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace limbcast::segmenter {
+namespace {
+
+constexpr float kPi = 3.14159265F;
+/// Steepest direction rendered (tangent of the elevation): 55 degrees. Steeper ones show no upright
+/// person.
+constexpr float kMaxSlope = 1.43F;
+constexpr float kNearest_m = 0.3F;
+
+struct Pixel {
+  int u, v;
+  float level_distance_m;
+};
+
+/// Where a point of the level frame is seen; v lies outside the image for steep or too near ones.
+Pixel project(const Lattice& panorama, const Eigen::Vector3f& level_m) {
+  const float distance_m = level_m.head<2>().norm();
+  if (distance_m < kNearest_m) return {0, -1, distance_m};
+  const float azimuth_rad = std::atan2(level_m.x(), level_m.y());
+  const float slope = (level_m.z() - panorama.frame.sensor_height_m) / distance_m;
+  const int u =
+      static_cast<int>(std::floor((azimuth_rad + kPi) * panorama.focal_px)) % panorama.width;
+  return {u, static_cast<int>(std::floor((kMaxSlope - slope) * panorama.focal_px)), distance_m};
+}
+
+bool inside(const Lattice& panorama, const Pixel& pixel) {
+  return pixel.v >= 0 && pixel.v < panorama.height;
+}
+
+void draw_points(const Cloud& cloud, Lattice& panorama) {
+  for (std::size_t i = 0; i < cloud.points_m.size(); ++i) {
+    if (!cloud.points_m[i].allFinite()) continue;
+    const Eigen::Vector3f level_m = panorama.frame.to_level(cloud.points_m[i]);
+    const Pixel pixel = project(panorama, level_m);
+    if (!inside(panorama, pixel)) continue;
+    const std::size_t k = panorama.index(pixel.u, pixel.v);
+    if (panorama.depth_m[k] > 0.0F && panorama.depth_m[k] <= pixel.level_distance_m) continue;
+    panorama.depth_m[k] = pixel.level_distance_m;
+    panorama.level_m[k] = level_m;
+    panorama.source[k] = static_cast<std::uint32_t>(i);
+  }
+}
+
+/// Gives empty directions the depth of the nearest one that has a point within `radius_px`.
+void fill_gaps(int radius_px, Lattice& panorama) {
+  cv::Mat1b empty(panorama.height, panorama.width);
+  for (std::size_t i = 0; i < panorama.size(); ++i)
+    empty(static_cast<int>(i)) = panorama.depth_m[i] > 0.0F ? 0 : 1;
+  if (cv::countNonZero(empty) == static_cast<int>(panorama.size())) return;
+  cv::Mat1f distance;
+  cv::Mat1i nearest;
+  cv::distanceTransform(empty, distance, nearest, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
+  std::vector<std::size_t> pixel_of_label(panorama.size() + 1, 0);
+  for (std::size_t i = 0; i < panorama.size(); ++i) {
+    if (empty(static_cast<int>(i)) == 0)
+      pixel_of_label[static_cast<std::size_t>(nearest(static_cast<int>(i)))] = i;
+  }
+  for (std::size_t i = 0; i < panorama.size(); ++i) {
+    const int k = static_cast<int>(i);
+    if (empty(k) == 0 || distance(k) > static_cast<float>(radius_px)) continue;
+    const std::size_t from = pixel_of_label[static_cast<std::size_t>(nearest(k))];
+    const float depth_m = panorama.depth_m[from];
+    const auto width = static_cast<std::size_t>(panorama.width);
+    const float azimuth_rad = (static_cast<float>(i % width) + 0.5F) / panorama.focal_px - kPi;
+    const float slope = kMaxSlope - (static_cast<float>(i / width) + 0.5F) / panorama.focal_px;
+    panorama.depth_m[i] = depth_m;
+    panorama.level_m[i] = {depth_m * std::sin(azimuth_rad), depth_m * std::cos(azimuth_rad),
+                           panorama.frame.sensor_height_m + slope * depth_m};
+    panorama.source[i] = panorama.source[from];
+  }
+}
+
+}  // namespace
+
+Lattice render_panorama(const Cloud& cloud, const LevelFrame& frame, const PanoramaParams& params) {
+  Lattice panorama;
+  panorama.frame = frame;
+  panorama.wraps_around = true;
+  panorama.width = static_cast<int>(std::lround(2.0F * kPi * params.focal_px));
+  panorama.focal_px = static_cast<float>(panorama.width) / (2.0F * kPi);
+  panorama.height = static_cast<int>(2.0F * kMaxSlope * panorama.focal_px);
+  const std::size_t size =
+      static_cast<std::size_t>(panorama.width) * static_cast<std::size_t>(panorama.height);
+  panorama.depth_m.assign(size, 0.0F);
+  panorama.level_m.assign(size, Eigen::Vector3f::Zero());
+  panorama.source.assign(size, 0);
+  draw_points(cloud, panorama);
+  fill_gaps(params.gap_px, panorama);
+  return panorama;
+}
+
+std::vector<std::int16_t> labels_of_points(const Cloud& cloud, const Lattice& panorama,
+                                           const std::vector<std::int16_t>& labels,
+                                           const JointGrowingParams& params) {
+  std::vector<std::int16_t> of_points(cloud.points_m.size(), kNobody);
+  for (std::size_t i = 0; i < cloud.points_m.size(); ++i) {
+    if (!cloud.points_m[i].allFinite()) continue;
+    const Eigen::Vector3f level_m = panorama.frame.to_level(cloud.points_m[i]);
+    if (panorama.frame.ground_known && level_m.z() < params.ground_cut_m) continue;
+    const Pixel pixel = project(panorama, level_m);
+    if (!inside(panorama, pixel)) continue;
+    const std::size_t k = panorama.index(pixel.u, pixel.v);
+    if (std::abs(panorama.depth_m[k] - pixel.level_distance_m) < params.min_step_m)
+      of_points[i] = labels[k];
+  }
+  return of_points;
+}
+
+}  // namespace limbcast::segmenter

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/cloud/cloud.hpp"
+#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/params.hpp"
+
+namespace limbcast::segmenter {
+
+/// What a cloud without a camera would look like from the sensor's place: a cylinder about gravity,
+/// all 360 degrees, `depth_m` = level distance. Directions without a point take the nearest one's,
+/// as far as neighbouring beams of a scanner stand apart.
+Lattice render_panorama(const Cloud& cloud, const LevelFrame& frame, const PanoramaParams& params);
+
+/// Labels of the cloud's points from those of its panorama.
+std::vector<std::int16_t> labels_of_points(const Cloud& cloud, const Lattice& panorama,
+                                           const std::vector<std::int16_t>& labels,
+                                           const JointGrowingParams& params);
+
+}  // namespace limbcast::segmenter

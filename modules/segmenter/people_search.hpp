@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/segmenter/filters.hpp"
+#include "modules/segmenter/head_classifier.hpp"
+#include "modules/segmenter/head_shape.hpp"
+#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/params.hpp"
+
+namespace limbcast::segmenter {
+
+struct RejectedHead {
+  HeadCandidate head;
+  Rejection rejection;
+};
+
+/// The people of one lattice.
+struct FoundPeople {
+  std::vector<HeadCandidate> heads;
+  std::vector<float> person_odds;    ///< one for each head
+  std::vector<std::int16_t> labels;  ///< head of each point of the lattice, or kNobody
+  std::vector<RejectedHead> rejected;
+};
+
+/// Sets `odds` of each candidate, drops the unlikely ones and those that a likelier one stands for.
+std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
+                                        std::vector<HeadCandidate> candidates,
+                                        const HeadClassifier& classifier,
+                                        const ClassifierParams& params,
+                                        std::vector<RejectedHead>& rejected);
+
+/// Grows all candidates together, and again without the least likely one until all are people.
+FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
+                        const HeadClassifier& classifier, const Params& params);
+
+}  // namespace limbcast::segmenter

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "modules/segmenter/network.hpp"
+
+namespace limbcast::segmenter {
+
+struct Example {
+  std::vector<float> input;
+  bool positive = false;
+  float weight = 1.0F;
+};
+
+struct TrainingParams {
+  int hidden = 24;
+  int epochs = 12;
+  float rate = 0.002F;  ///< Adam's step, falling to a tenth over the epochs
+  float decay = 1e-4F;  ///< of the weights, a step
+  unsigned seed = 1;
+};
+
+/// Least logistic loss by Adam (Kingma and Ba, ICLR 2015). The same examples give the same network.
+Network train(const std::vector<Example>& examples, const TrainingParams& params);
+
+/// Writes C++ text that defines a StoredNetwork (see network.hpp) for each name.
+void write_networks(const std::vector<std::pair<std::string, Network>>& networks,
+                    const std::string& path);
+
+}  // namespace limbcast::segmenter
