@@ -61,9 +61,8 @@ TEST(EvaluateProgram, TellsTheMainFiguresInOneLine) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", true);
   const Outcome outcome = evaluate_program({folder / "out.log", "--brief"});
-  EXPECT_THAT(
-      outcome.out,
-      StartsWith("accuracy on 2 frames: postures right 50.0 %, wrong reported 50.0 %,"));
+  EXPECT_THAT(outcome.out,
+              StartsWith("accuracy on 2 frames: postures right 50.0 %, wrong reported 50.0 %,"));
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
 }
 

@@ -104,8 +104,7 @@ bool seed_at_head(const Lattice& lattice, const PinholeCamera& camera,
   return (seed.center_m - head_m).norm() < kSameHead_m;
 }
 
-void add_patch_examples(const Scene& scene, Random& random,
-                        std::vector<Example>& examples) {
+void add_patch_examples(const Scene& scene, Random& random, std::vector<Example>& examples) {
   for (std::size_t h = 0; h < scene.heads_m.size(); ++h) {
     HeadCandidate seed;
     if (scene.visible[h] && seed_at_head(scene.lattice, scene.camera, scene.heads_m[h], seed)) {

@@ -69,7 +69,7 @@ Eigen::Matrix<Real, kUnknownCount, 1> damped_step(const NormalEquations& equatio
                                                   const UnknownSet& set, Real damping) {
   const int n = set.count;
   alignas(16) std::array<float, kUnknownCount * kStride> factor;  // rows of the lower triangle
-  alignas(16) std::array<float, kStride> solution;
+  alignas(16) std::array<float, kStride> solution{};
   for (int i = 0; i < n; ++i) {
     float* row = &factor[static_cast<std::size_t>(i) * kStride];
     const int a = set.unknowns[i];
