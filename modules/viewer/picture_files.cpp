@@ -10,12 +10,9 @@
 namespace limbcast::viewer {
 namespace {
 
-/// Fast rather than small: the pictures are looked at and thrown away.
-const std::vector<int> kPngParameters = {cv::IMWRITE_PNG_COMPRESSION, 1};
-
 void write_picture(const std::string& path, const cv::Mat& image) {
-  if (!cv::imwrite(path, image, kPngParameters))
-    throw std::runtime_error(path + ": cannot be written");
+  // OpenCV's own settings for PNG are the fastest; any level of compression switches them off.
+  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
 }
 
 int codec_of(const std::string& path) {

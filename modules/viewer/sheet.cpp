@@ -35,16 +35,16 @@ const char* source_name(GravitySource source) {
   return "";
 }
 
-std::string person_line(const BodyPose& person) {
-  std::string line =
-      formatted("person %d: error %.3f, confidence %.2f", person.id,
-                static_cast<double>(person.error), static_cast<double>(person.confidence));
+void append_person(const BodyPose& person, std::vector<std::string>& lines) {
+  lines.push_back(formatted("person %d: error %.3f, confidence %.2f", person.id,
+                            static_cast<double>(person.error),
+                            static_cast<double>(person.confidence)));
   for (const Pointing& arm : person.pointing)
-    line +=
-        formatted(", %s arm (%.2f %.2f %.2f)", arm.side == Side::kLeft ? "left" : "right",
+    lines.push_back(
+        formatted("  points, %s arm (%.2f %.2f %.2f), confidence %.2f",
+                  arm.side == Side::kLeft ? "left" : "right",
                   static_cast<double>(arm.direction.x()), static_cast<double>(arm.direction.y()),
-                  static_cast<double>(arm.direction.z()));
-  return line;
+                  static_cast<double>(arm.direction.z()), static_cast<double>(arm.confidence)));
 }
 
 std::vector<std::string> words(const ViewFrame& frame) {
@@ -62,7 +62,7 @@ std::vector<std::string> words(const ViewFrame& frame) {
     lines.push_back(formatted("%d people in truth", static_cast<int>(frame.truth->persons.size())));
   if (!frame.poses) return lines;
   lines.push_back(formatted("%d people found", static_cast<int>(frame.poses->persons.size())));
-  for (const BodyPose& person : frame.poses->persons) lines.push_back(person_line(person));
+  for (const BodyPose& person : frame.poses->persons) append_person(person, lines);
   if (static_cast<int>(lines.size()) > kMaxLines) lines.resize(kMaxLines);
   return lines;
 }
