@@ -63,6 +63,7 @@ void read_links(const ModelText& source, HumanModel& model) {
   const auto json = JsonNode::parse(source.file, source.text);
   const JsonNode root(source.file, json);
   model.name = root.at("name").text();
+  model.start_scale = root.at("start_scale").number(0.1, 10.0);
   const JsonNode links = root.at("links");
   if (links.size() != kLinkCount - 1) links.fail("must have 15 entries, links 1 to 15 of Table I");
   model.links[0] = Link{};
@@ -145,6 +146,15 @@ void read_typical_poses(const ModelText& source, HumanModel& model) {
 }
 
 }  // namespace
+
+HumanModel scaled(HumanModel model, double scale) {
+  for (Link& link : model.links) {
+    link.length_m *= scale;
+    link.min_length_m *= scale;
+    link.max_length_m *= scale;
+  }
+  return model;
+}
 
 HumanModel load_human_model(const HumanModelFiles& files) {
   HumanModel model;

@@ -48,12 +48,17 @@ struct TypicalPose {
 /// The human model of section III-A: links, joint limits and typical poses.
 struct HumanModel {
   std::string name;
+  /// Lengths times this are tried first; Eq. 2 tells how far off that is.
+  double start_scale = 1.0;
   std::array<Link, kLinkCount> links;  ///< by the number of Table I
   std::array<DegreeOfFreedom, kDegreesOfFreedom> degrees_of_freedom;
   std::vector<TypicalPose> typical_poses;  ///< 27 of them
   double rotation_step_rad = 0.0;
   int rotation_count = 0;
 };
+
+/// The same model with all lengths of links times `scale`.
+HumanModel scaled(HumanModel model, double scale);
 
 /// Where the three parts of a model come from: a name of those that ship, or the path of a file.
 struct HumanModelFiles {

@@ -31,8 +31,9 @@ void declare(config::Section& section, PoseFitterOptions& options) {
       "method", options.method, {"refined", "paper"},
       "refined: body surface fitted to all points; paper: typical poses, link by link");
   declare_model(section, paper.model_files);
-  section.add("model-scale", paper.model_scale, "",
-              "method paper: size of the people against the model (table1: 0.72)", {0.2, 2.0});
+  section.add("max-passes", paper.max_passes, "",
+              "method paper: fits of a person, each with the lengths that Eq. 2 found before",
+              {1, 10});
   section.add("near-radius-m", paper.near_radius_m, "m",
               "method paper: link ends are searched this far from the reference point",
               {0.02, 1.0});

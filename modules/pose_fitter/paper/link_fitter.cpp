@@ -22,10 +22,9 @@ LinkFitter::LinkFitter(const Cluster& cluster, const PaperFitterParams& params)
 
 LinkFit LinkFitter::find_best_fit(const Link& link, const LinkStart& start,
                                   const Vector3f& direction) const {
-  const auto scale = static_cast<float>(params_.model_scale);
-  const float length = scale * static_cast<float>(link.length_m);
-  const float min_length = scale * static_cast<float>(link.min_length_m);
-  const float max_length = scale * static_cast<float>(link.max_length_m);
+  const auto length = static_cast<float>(link.length_m);
+  const auto min_length = static_cast<float>(link.min_length_m);
+  const auto max_length = static_cast<float>(link.max_length_m);
   const auto radius = static_cast<float>(params_.near_radius_m);
   const auto dense = static_cast<float>(params_.dense_points);
   const Vector3f reference = start.position_m + direction * length;

@@ -42,8 +42,9 @@ std::vector<FittedPose> fit_all(const HumanModel& model, const PaperFitterParams
 }
 
 /// The valid pose of lowest error; of equal ones the first.
-const FittedPose* best_valid(const std::vector<FittedPose>& poses, const HumanModel& model,
-                             const std::vector<Matrix3f>& axes, const PaperFitterParams& params) {
+std::optional<FittedPose> best_valid(const std::vector<FittedPose>& poses, const HumanModel& model,
+                                     const std::vector<Matrix3f>& axes,
+                                     const PaperFitterParams& params) {
   std::vector<const FittedPose*> ranked;
   for (const FittedPose& pose : poses) ranked.push_back(&pose);
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -51,14 +52,43 @@ const FittedPose* best_valid(const std::vector<FittedPose>& poses, const HumanMo
   const auto found = std::find_if(ranked.begin(), ranked.end(), [&](const FittedPose* pose) {
     return is_valid(*pose, model, axes[pose->rotation], params);
   });
-  return found == ranked.end() ? nullptr : *found;
+  if (found == ranked.end()) return std::nullopt;
+  return **found;
+}
+
+float eq2_scale(const FittedPose& pose, const HumanModel& model, const PaperFitterParams& params) {
+  return average_scale(link_scales(pose, model), params.scale_average);
+}
+
+/// The winner, and the lengths with which it was found.
+struct Winner {
+  FittedPose pose;
+  double scale;
+};
+
+/// Fits with the model's start scale, then again with what Eq. 2 says the person's is.
+std::optional<Winner> fit_person(const HumanModel& model, const PaperFitterParams& params,
+                                 const Cluster& cluster, const Vector3f& head_m,
+                                 const std::vector<Matrix3f>& axes) {
+  std::optional<Winner> winner;
+  double scale = model.start_scale;
+  for (int pass = 0; pass < params.max_passes; ++pass) {
+    const HumanModel sized = scaled(model, scale);
+    const auto best =
+        best_valid(fit_all(sized, params, cluster, head_m, axes), sized, axes, params);
+    if (!best) break;
+    if (!winner || best->error < winner->pose.error) winner = Winner{*best, scale};
+    const double change = eq2_scale(*best, sized, params);
+    if (std::abs(change - 1.0) <= params.rescale_above) break;
+    scale *= change;
+  }
+  return winner;
 }
 
 BodyPose to_body_pose(const FittedPose& fitted, const HumanModel& model, const Matrix3f& axes,
                       const PaperFitterParams& params) {
   BodyPose body;
-  const std::vector<float> scales = link_scales(fitted, model);
-  body.scale = average_scale(scales, params.scale_average);
+  body.scale = eq2_scale(fitted, model, params);
   for (int number = 0; number < kLinkCount; ++number) {
     const Link& link = model.links[number];
     const LinkFit& fit = fitted.links[number];
@@ -96,10 +126,9 @@ std::optional<BodyPose> PaperFitter::fit(const Segment& segment, const Stamp& st
   for (int rotation = 0; rotation < model_.rotation_count; ++rotation) {
     axes.push_back(body_axes(head_m, stamp.gravity.down, rotation * model_.rotation_step_rad));
   }
-  const std::vector<FittedPose> poses = fit_all(model_, params_, cluster, head_m, axes);
-  const FittedPose* best = best_valid(poses, model_, axes, params_);
-  if (best == nullptr) return std::nullopt;
-  BodyPose body = to_body_pose(*best, model_, axes[best->rotation], params_);
+  const auto winner = fit_person(model_, params_, cluster, head_m, axes);
+  if (!winner) return std::nullopt;
+  BodyPose body = to_body_pose(winner->pose, model_, axes[winner->pose.rotation], params_);
   body.id = segment.id;
   body.pointing = find_pointing(body, stamp.gravity.down, params_.pointing);
   return body;

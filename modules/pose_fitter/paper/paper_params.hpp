@@ -20,8 +20,10 @@ enum class ScaleDeviation {
 /// origin were chosen on bodies D1 to D3 of stereo_dev; README.md has the figures.
 struct PaperFitterParams {
   HumanModelFiles model_files;
-  /// Lengths of the model times this are looked for. 1: the model's own stature.
-  double model_scale = 1.0;
+  /// Times the poses are fitted, each time with the lengths that Eq. 2 found before, as long as
+  /// they change by more than rescale_above. 1: never again; children then fit badly.
+  int max_passes = 3;
+  double rescale_above = 0.12;
 
   // The cluster
   /// Points are averaged in cubes of this edge [m], so that densities mean the same for a camera
@@ -36,7 +38,7 @@ struct PaperFitterParams {
 
   // Find best fit
   /// Radius around the reference point in which link ends are searched [m].
-  double near_radius_m = 0.18;
+  double near_radius_m = 0.22;
   /// A link may point this far away from the reference's direction [deg].
   double max_link_turn_deg = 60.0;
   /// A link may bend this much against the one it hangs on [deg]: the largest interval of an elbow
@@ -48,12 +50,12 @@ struct PaperFitterParams {
   double min_points_along_link = 1.0;
   /// Weights of e2 in Algorithm 2, e1 (1 - density / dense_points) having 1: difference of length,
   /// of direction (1 - cosine) and distance from the reference point (of near_radius_m).
-  double length_weight = 1.0, direction_weight = 0.5, distance_weight = 0.5;
+  double length_weight = 1.0, direction_weight = 0.5, distance_weight = 1.0;
 
   // Eq. 1
-  double alpha_distance = 1.0;         ///< for one metre between reference and detected end
+  double alpha_distance = 1.5;         ///< for one metre between reference and detected end
   double alpha_missing = 1.0;          ///< for one missing link
-  double alpha_unused = 6.0;           ///< for a cluster of which no point is near the pose
+  double alpha_unused = 10.0;          ///< for a cluster of which no point is near the pose
   double alpha_density = 0.3;          ///< for one link of low density
   double missing_inner_penalty = 1.0;  ///< a_i of a link that others hang on
   double missing_outer_penalty = 0.5;  ///< a_i of a link that none hangs on
