@@ -104,6 +104,8 @@ BodyPose to_body_pose(const FittedPose& fitted, const HumanModel& model, const M
   const JointAngles angles = fitted_angles(fitted, model, axes);
   std::transform(angles.begin(), angles.end(), body.angles_rad.begin(),
                  [](const JointAngle& angle) { return angle.rad; });
+  // Falls with Eq. 1, so that of two poses in one place the better one stays; not a measured share.
+  body.confidence = 1.0F / (1.0F + fitted.error);
   body.error = fitted.error;
   body.error_terms = fitted.terms;
   body.typical_pose = fitted.typical_pose;
