@@ -162,6 +162,22 @@ TEST(NeighborSearch, NamesTheSamePointsByTreeAndByLattice) {
   }
 }
 
+// Depths that jump at each pixel put points at the very rim of the window that a ball can cover.
+TEST(NeighborSearch, NamesTheSamePointsByTreeAndByLatticeWhereDepthsJump) {
+  std::mt19937 random(6);
+  const Cloud cloud =
+      camera_cloud([&](int, int) { return 0.5F + static_cast<float>(random() % 1000) / 1000.0F; });
+  const auto tree = make_kd_tree_search(cloud), lattice = make_lattice_search(cloud);
+  for (std::uint32_t i = 0; i < cloud.points_m.size(); ++i) {
+    tree->reset();
+    lattice->reset();
+    Indices by_tree, by_lattice;
+    tree->take_neighbors(i, 0.4F, by_tree);
+    lattice->take_neighbors(i, 0.4F, by_lattice);
+    ASSERT_EQ(by_tree, by_lattice) << "point " << i;
+  }
+}
+
 TEST(NeighborSearch, GrowsTheSameClusterByTreeAndByLattice) {
   const Cloud cloud = rough_cloud(4);
   const auto tree = make_kd_tree_search(cloud), lattice = make_lattice_search(cloud);
