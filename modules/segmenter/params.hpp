@@ -6,7 +6,7 @@ namespace limbcast::segmenter {
 
 /// Where growing starts.
 enum class SeedSource : std::int8_t {
-  kAuto,   ///< skin and shape for a cloud with colour, shape for one without
+  kAuto,   ///< heads by shape, with skin as a mark on them; the paper's growing starts from both
   kSkin,   ///< skin-coloured parts (the paper)
   kShape,  ///< heads found by their shape
   kBoth,   ///< skin and shape

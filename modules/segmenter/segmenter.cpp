@@ -73,9 +73,12 @@ std::vector<HeadCandidate> Segmenter::find_seeds(const Cloud& cloud, const Latti
                      [&](const HeadCandidate& head) {
                        return (head.center_m - part.center_m).norm() < kSameSeed_m;
                      });
-    if (same == seeds.begin() + static_cast<std::ptrdiff_t>(heads))
-      seeds.push_back(part);
-    else
+    if (same == seeds.begin() + static_cast<std::ptrdiff_t>(heads)) {
+      // A skin-coloured part without the shape of a head is furniture far more often than a head
+      // (README): `auto` takes it only for the paper's growing.
+      if (params_.seeds != SeedSource::kAuto || params_.growing == Growing::kPaper)
+        seeds.push_back(part);
+    } else
       same->kind = SeedKind::kBoth;
   }
   return seeds;
