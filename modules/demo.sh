@@ -80,8 +80,8 @@ start() {  # start NAME COMMAND...
 start lcm-logger lcm-logger --quiet "$run_log"
 logger=${pids[-1]}
 for module in reconstructor segmenter pose-fitter; do start "$module" "$bin/limbcast-$module"; done
-"$bin/limbcast-export-poses" --format text 2>"$output/processes/export-poses.txt" |
-  tee "$output/poses.txt" &
+"$bin/limbcast-export-poses" --format text 2>"$output/processes/export-poses.txt" \
+  > >(exec tee "$output/poses.txt") &
 pids+=($!)
 for module in reconstructor segmenter pose-fitter export-poses; do
   until grep -q "INFO" "$output/processes/$module.txt" 2>/dev/null; do
