@@ -10,7 +10,7 @@ packages_run=(
   iproute2 procps)
 packages_test=(
   libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev
-  clang-format clang-tidy
+  clang-format clang-tidy jq
   default-jdk-headless liblcm-java
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good)
 
