@@ -64,6 +64,7 @@ void read_links(const ModelText& source, HumanModel& model) {
   const JsonNode root(source.file, json);
   model.name = root.at("name").text();
   model.start_scale = root.at("start_scale").number(0.1, 10.0);
+  model.length_limits_source = root.at("length_limits_source").text();
   const JsonNode links = root.at("links");
   if (links.size() != kLinkCount - 1) links.fail("must have 15 entries, links 1 to 15 of Table I");
   model.links[0] = Link{};

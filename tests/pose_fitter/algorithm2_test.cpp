@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "modules/pose_fitter/paper/link_fitter.hpp"
@@ -101,6 +102,34 @@ TEST_F(Algorithm2, CountsThePointsThatAreNotNearThePose) {
   EXPECT_FLOAT_EQ(without.terms[2], 0.0F);
   for (int i = 0; i < 100; ++i) points.emplace_back(1.2F, 0.5F + 0.013F * i, 3.0F);
   EXPECT_GT(fit(points, kArmsSideways).terms[2], 0.5F);
+}
+
+TEST_F(Algorithm2, PenalisesALinkAlongWhichPointsAreSparse) {
+  constexpr int kForearm = 5;
+  const FittedPose truth = exact_pose(model_, kArmsSideways);
+  const FittedPose dense = fit(stick_figure(model_, truth, 0), kArmsSideways);
+  EXPECT_FLOAT_EQ(dense.terms[3], 0.0F);
+  std::vector<Vector3f> points = stick_figure(model_, truth, kForearm);
+  const Vector3f elbow = truth.links[model_.links[kForearm].connected_to].end_m;
+  const Vector3f forearm = truth.links[kForearm].end_m - elbow;
+  for (float t = 0.0F; t <= 1.0F; t += 0.2F) points.emplace_back(elbow + t * forearm);
+  const FittedPose sparse = fit(points, kArmsSideways);
+  ASSERT_TRUE(sparse.links[kForearm].valid);
+  EXPECT_FLOAT_EQ(sparse.terms[3], static_cast<float>(params_.alpha_density));
+}
+
+TEST_F(Algorithm2, ExpectsTheRightShoulderToMoveAsTheLeftOneDid) {
+  constexpr float kTurnRad = 0.23F;
+  FittedPose turned = exact_pose(model_, kArmsSideways);
+  const Vector3f neck = turned.links[1].end_m;
+  const Eigen::AngleAxisf turn(kTurnRad, Vector3f::UnitY());
+  for (const int shoulder : {2, 3}) {
+    turned.links[shoulder].end_m = neck + turn * (turned.links[shoulder].end_m - neck);
+  }
+  const FittedPose found = fit(stick_figure(model_, turned, 0), kArmsSideways);
+  ASSERT_TRUE(found.links[2].valid && found.links[3].valid);
+  EXPECT_GT(found.links[2].distance_m, 0.035F) << "the left one is off its reference";
+  EXPECT_LT(found.links[3].distance_m, 0.03F) << "the right one's reference moved with it";
 }
 
 class FindBestFit : public testing::Test {

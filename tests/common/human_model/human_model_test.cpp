@@ -83,6 +83,17 @@ TEST(HumanModel, GivesAnIntervalAndASourceForEveryAngle) {
   }
 }
 
+TEST(HumanModel, GivesAnIntervalAndASourceForTheLengthOfEveryLink) {
+  for (const char* name : {"table1", "anthropometric"}) {
+    const HumanModel model = load_human_model({name});
+    EXPECT_THAT(model.length_limits_source, testing::ContainsRegex("20[0-9][0-9]")) << name;
+    for (int number = 1; number < kLinkCount; ++number) {
+      EXPECT_LT(model.links[number].min_length_m, model.links[number].length_m) << number;
+      EXPECT_GT(model.links[number].max_length_m, model.links[number].length_m) << number;
+    }
+  }
+}
+
 TEST(HumanModel, Has27DifferentPosesWhichDifferMostlyInTheArms) {
   const HumanModel model = load_human_model();
   ASSERT_EQ(model.typical_poses.size(), 27U);
