@@ -64,9 +64,7 @@ void measure_head(const Cluster& cluster, ClusterFigures& figures) {
 bool is_open(const Lattice& lattice, const std::vector<std::int16_t>& labels, std::size_t i,
              const JointGrowingParams& growing) {
   const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
-  const float step_m =
-      0.5F *
-      std::max(growing.min_step_m, growing.step_per_m2 * lattice.depth_m[i] * lattice.depth_m[i]);
+  const float step_m = 0.5F * growing.longest_step_m(lattice.depth_m[i]);
   for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
     if (u + du < 0 || v + dv < 0 || u + du >= lattice.width || v + dv >= lattice.height) continue;
     const std::size_t n = lattice.index(u + du, v + dv);
@@ -126,23 +124,31 @@ ClusterFigures measure(const Cluster& cluster, const ReachParams& reach) {
 
 }  // namespace
 
+ClusterFigures measure_cluster(const Lattice& lattice, const HeadCandidate& head,
+                               const std::vector<std::int16_t>& labels, std::int16_t label,
+                               const JointGrowingParams& growing, const ReachParams& reach) {
+  Cluster cluster;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] != label) continue;
+    const float size_m = lattice.depth_m[i] / lattice.focal_px;
+    cluster.from_head_m.emplace_back(lattice.level_m[i] - head.center_m);
+    cluster.area_m2 += size_m * size_m;
+    cluster.open += is_open(lattice, labels, i, growing) ? 1 : 0;
+  }
+  return measure(cluster, reach);
+}
+
 std::vector<ClusterFigures> measure_clusters(const Lattice& lattice,
                                              const std::vector<HeadCandidate>& heads,
                                              const std::vector<std::int16_t>& labels,
                                              const JointGrowingParams& growing,
                                              const ReachParams& reach) {
-  std::vector<Cluster> clusters(heads.size());
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] == kNobody) continue;
-    const auto k = static_cast<std::size_t>(labels[i]);
-    const float size_m = lattice.depth_m[i] / lattice.focal_px;
-    clusters[k].from_head_m.emplace_back(lattice.level_m[i] - heads[k].center_m);
-    clusters[k].area_m2 += size_m * size_m;
-    clusters[k].open += is_open(lattice, labels, i, growing) ? 1 : 0;
-  }
   std::vector<ClusterFigures> figures;
-  figures.reserve(clusters.size());
-  for (const Cluster& cluster : clusters) figures.push_back(measure(cluster, reach));
+  figures.reserve(heads.size());
+  for (std::size_t k = 0; k < heads.size(); ++k) {
+    figures.push_back(
+        measure_cluster(lattice, heads[k], labels, static_cast<std::int16_t>(k), growing, reach));
+  }
   return figures;
 }
 

@@ -32,6 +32,11 @@ struct ClusterFigures {
   float open_share = 0.0F;        ///< points whose surface goes on beyond the cluster
 };
 
+/// Figures of the cluster whose points carry `label`.
+ClusterFigures measure_cluster(const Lattice& lattice, const HeadCandidate& head,
+                               const std::vector<std::int16_t>& labels, std::int16_t label,
+                               const JointGrowingParams& growing, const ReachParams& reach);
+
 /// Figures of each cluster; `labels` as grow_together gives them.
 std::vector<ClusterFigures> measure_clusters(const Lattice& lattice,
                                              const std::vector<HeadCandidate>& heads,

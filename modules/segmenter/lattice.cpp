@@ -73,7 +73,7 @@ std::vector<std::int16_t> thicken(const Cloud& cloud, const Lattice& lattice, in
       if (lattice.frame.ground_known &&
           up.dot(point) + lattice.frame.sensor_height_m < params.ground_cut_m)
         continue;
-      float nearest_m = std::max(params.min_step_m, params.step_per_m2 * point.z() * point.z());
+      float nearest_m = params.longest_step_m(point.z());
       for (const std::size_t k : around) {
         if (lattice.depth_m[k] <= 0.0F) continue;
         const float distance_m = std::abs(lattice.depth_m[k] - point.z());

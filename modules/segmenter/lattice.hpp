@@ -48,6 +48,14 @@ struct Lattice {
            static_cast<std::size_t>(u);
   }
   std::size_t size() const { return depth_m.size(); }
+  /// Index of the point there; nothing at a hole and outside.
+  std::optional<std::uint32_t> find(int u, int v) const {
+    if (wraps_around) u = (u + width) % width;
+    if (u < 0 || v < 0 || u >= width || v >= height) return std::nullopt;
+    const std::size_t i = index(u, v);
+    if (depth_m[i] <= 0.0F) return std::nullopt;
+    return static_cast<std::uint32_t>(i);
+  }
 };
 
 /// Label of a point that belongs to no cluster.

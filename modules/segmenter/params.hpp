@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace limbcast::segmenter {
@@ -62,9 +63,10 @@ struct PaperGrowingParams {
 
 /// Growing from all heads together.
 struct JointGrowingParams {
-  /// Longest step between neighbours [m]: max(min_step_m, step_per_m2 * z^2), as depth noise grows.
+  /// Longest step between neighbours at the depth z [m] grows with z^2, as depth noise does.
   float min_step_m = 0.06F;
   float step_per_m2 = 0.012F;
+  float longest_step_m(float z_m) const { return std::max(min_step_m, step_per_m2 * z_m * z_m); }
   /// Points lower than this over the ground are ground [m]: two sigma of stereo noise and the
   /// plane's error.
   float ground_cut_m = 0.04F;
@@ -72,6 +74,16 @@ struct JointGrowingParams {
   float max_way_m = 2.4F;
   /// A step in depth costs this much more than one along the image: bodies that touch part there.
   float depth_step_cost = 0.5F;
+  /// What hides a part of a body, an arm or another person, is at most this wide [m]: shoulders.
+  float max_gap_m = 0.45F;
+  /// Both sides of it differ at most this much in depth [m]: half the depth of a trunk and a tilt.
+  float max_gap_depth_m = 0.20F;
+  /// A way behind something costs this much more than one in sight, so that a point in sight of
+  /// another head is that head's.
+  float gap_cost = 2.0F;
+  /// Connected surface [m^2] that may be a part of a body: less is noise of the matcher, more a
+  /// wall.
+  float min_part_m2 = 0.003F, max_part_m2 = 2.2F;
   /// Radius about the head's axis below these heights (share of the head's height): legs stay under
   /// the body.
   float shin_height = 0.30F, shin_radius_m = 0.75F;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <utility>
 
 #include "modules/segmenter/cluster_figures.hpp"
@@ -13,24 +13,72 @@ namespace {
 
 float probability(float odds) { return 1.0F / (1.0F + std::exp(-odds)); }
 
-/// Index of the head to give up next and why; heads.size() where all may stay.
-std::size_t weakest(const std::vector<ClusterFigures>& figures, const std::vector<float>& odds,
-                    const Params& params, Rejection& why) {
-  std::size_t worst = figures.size();
-  float worst_odds = std::numeric_limits<float>::max();
-  for (std::size_t k = 0; k < figures.size(); ++k) {
-    auto rejection = check_validity(figures[k], params.filters);
-    if (!rejection && odds[k] < params.classifier.min_person_odds) {
-      rejection = Rejection{SegmentFilter::kNotHeadShaped, probability(odds[k]),
-                            probability(params.classifier.min_person_odds)};
-    }
-    if (!rejection || odds[k] >= worst_odds) continue;
-    worst = k;
-    worst_odds = odds[k];
-    why = *rejection;
+/// What became of the heads while they grow together.
+class Trial {
+ public:
+  Trial(const Lattice& lattice, std::vector<HeadCandidate> heads, const HeadClassifier& classifier,
+        const Params& params)
+      : lattice_(lattice),
+        classifier_(classifier),
+        params_(params),
+        growth_(lattice, std::move(heads), params.joint, params.reach),
+        verdicts_(growth_.heads().size()) {
+    for (std::size_t k = 0; k < verdicts_.size(); ++k) judge(static_cast<std::int16_t>(k));
   }
-  return worst;
-}
+
+  /// Gives up the least likely head that is no person's; nothing where all are.
+  std::optional<RejectedHead> drop_weakest() {
+    std::optional<std::size_t> weakest;
+    for (std::size_t k = 0; k < verdicts_.size(); ++k) {
+      if (!verdicts_[k].rejection || growth_.dropped(static_cast<std::int16_t>(k))) continue;
+      if (!weakest || verdicts_[k].odds < verdicts_[*weakest].odds) weakest = k;
+    }
+    if (!weakest) return std::nullopt;
+    for (const std::int16_t k : growth_.drop(static_cast<std::int16_t>(*weakest))) judge(k);
+    return RejectedHead{growth_.heads()[*weakest], *verdicts_[*weakest].rejection};
+  }
+
+  /// The heads that are left, and their points.
+  void name_people(FoundPeople& found) const {
+    std::vector<std::int16_t> name_of(verdicts_.size(), kNobody);
+    for (std::size_t k = 0; k < verdicts_.size(); ++k) {
+      if (growth_.dropped(static_cast<std::int16_t>(k))) continue;
+      name_of[k] = static_cast<std::int16_t>(found.heads.size());
+      found.heads.push_back(growth_.heads()[k]);
+      found.person_odds.push_back(verdicts_[k].odds);
+    }
+    found.labels = growth_.labels();
+    for (std::int16_t& label : found.labels) {
+      if (label != kNobody) label = name_of[static_cast<std::size_t>(label)];
+    }
+  }
+
+ private:
+  struct Verdict {
+    float odds = 0.0F;
+    std::optional<Rejection> rejection;
+  };
+
+  void judge(std::int16_t k) {
+    const HeadCandidate& head = growth_.heads()[static_cast<std::size_t>(k)];
+    const ClusterFigures figures =
+        measure_cluster(lattice_, head, growth_.labels(), k, params_.joint, params_.reach);
+    Verdict& verdict = verdicts_[static_cast<std::size_t>(k)];
+    verdict.odds = classifier_.person_odds(lattice_, head, figures);
+    verdict.rejection = check_validity(figures, params_.filters);
+    const float min_odds = params_.classifier.min_person_odds;
+    if (!verdict.rejection && verdict.odds < min_odds) {
+      verdict.rejection = Rejection{SegmentFilter::kNotHeadShaped, probability(verdict.odds),
+                                    probability(min_odds)};
+    }
+  }
+
+  const Lattice& lattice_;
+  const HeadClassifier& classifier_;
+  const Params& params_;
+  JointGrowth growth_;
+  std::vector<Verdict> verdicts_;
+};
 
 }  // namespace
 
@@ -67,22 +115,12 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
 FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
                         const HeadClassifier& classifier, const Params& params) {
   FoundPeople found;
-  found.heads =
+  std::vector<HeadCandidate> likely =
       likely_heads(lattice, std::move(candidates), classifier, params.classifier, found.rejected);
-  for (;;) {
-    found.labels = grow_together(lattice, found.heads, params.joint, params.reach);
-    const std::vector<ClusterFigures> figures =
-        measure_clusters(lattice, found.heads, found.labels, params.joint, params.reach);
-    found.person_odds.clear();
-    for (std::size_t k = 0; k < found.heads.size(); ++k) {
-      found.person_odds.push_back(classifier.person_odds(lattice, found.heads[k], figures[k]));
-    }
-    Rejection why{};
-    const std::size_t k = weakest(figures, found.person_odds, params, why);
-    if (k == found.heads.size()) return found;
-    found.rejected.push_back({found.heads[k], why});
-    found.heads.erase(found.heads.begin() + static_cast<std::ptrdiff_t>(k));
-  }
+  Trial trial(lattice, std::move(likely), classifier, params);
+  while (const auto rejected = trial.drop_weakest()) found.rejected.push_back(*rejected);
+  trial.name_people(found);
+  return found;
 }
 
 }  // namespace limbcast::segmenter

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "modules/segmenter/ground.hpp"
 #include "modules/segmenter/head_shape.hpp"
+#include "modules/segmenter/joint_growing.hpp"
 #include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/paper_search.hpp"
 #include "modules/segmenter/people_search.hpp"
@@ -29,6 +31,26 @@ Segment make_segment(const HeadCandidate& head, const LevelFrame& frame, float o
   return segment;
 }
 
+/// The head whose centre is told, at the pixel of the lattice nearest to it; nothing where none
+/// lies near.
+std::optional<HeadCandidate> head_at(const Lattice& lattice, const Eigen::Vector3f& center_m) {
+  constexpr float kNear_m = 0.15F;
+  float nearest_m = kNear_m * kNear_m;
+  std::optional<HeadCandidate> head;
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    if (lattice.depth_m[i] <= 0.0F) continue;
+    const float distance_m = (lattice.level_m[i] - center_m).squaredNorm();
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    head.emplace();
+    head->u = static_cast<int>(i) % lattice.width;
+    head->v = static_cast<int>(i) / lattice.width;
+    head->surface_m = lattice.level_m[i];
+    head->center_m = center_m;
+  }
+  return head;
+}
+
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
@@ -47,27 +69,50 @@ Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step) {
 Segments Segmenter::segment(const Cloud& cloud) const {
   Segments result;
   result.stamp = cloud.stamp;
-  const LevelFrame frame =
-      make_level_frame(cloud.stamp.gravity, find_ground(cloud, params_.ground));
-  int step = 1;
-  const Lattice lattice = cloud.organized() ? make_lattice(cloud, frame, step)
-                                            : render_panorama(cloud, frame, params_.panorama);
-  const std::vector<HeadCandidate> seeds = find_seeds(cloud, lattice);
+  const Scene scene = look_at(cloud);
+  const std::vector<HeadCandidate> seeds = find_seeds(scene);
   const std::vector<std::int16_t> labels = params_.growing == Growing::kPaper
-                                               ? grow_as_paper(cloud, lattice, seeds, result)
-                                               : grow_refined(cloud, lattice, step, seeds, result);
-  cut_out(cloud, lattice, labels, result);
+                                               ? grow_as_paper(scene, seeds, result)
+                                               : grow_refined(scene, seeds, result);
+  fill_segments(scene, labels, result);
   return result;
 }
 
-std::vector<HeadCandidate> Segmenter::find_seeds(const Cloud& cloud, const Lattice& lattice) const {
+Segments Segmenter::cut_out_people(const Cloud& cloud,
+                                   const std::vector<Eigen::Vector3f>& heads_m) const {
+  Segments result;
+  result.stamp = cloud.stamp;
+  const Scene scene = look_at(cloud);
+  std::vector<HeadCandidate> heads;
+  for (const Eigen::Vector3f& head_m : heads_m) {
+    const auto head = head_at(scene.lattice, scene.lattice.frame.to_level(head_m));
+    if (!head) continue;
+    heads.push_back(*head);
+    result.segments.push_back(make_segment(*head, scene.lattice.frame, 0.0F));
+  }
+  const auto labels = grow_together(scene.lattice, heads, params_.joint, params_.reach);
+  fill_segments(scene, labels_of_cloud(scene, labels), result);
+  return result;
+}
+
+Segmenter::Scene Segmenter::look_at(const Cloud& cloud) const {
+  const LevelFrame frame =
+      make_level_frame(cloud.stamp.gravity, find_ground(cloud, params_.ground));
+  Scene scene{cloud, {}};
+  scene.lattice = cloud.organized() ? make_lattice(cloud, frame, scene.step)
+                                    : render_panorama(cloud, frame, params_.panorama);
+  return scene;
+}
+
+std::vector<HeadCandidate> Segmenter::find_seeds(const Scene& scene) const {
   const bool skin = params_.seeds != SeedSource::kShape;
   const bool shape = params_.seeds != SeedSource::kSkin;
   std::vector<HeadCandidate> seeds;
-  if (shape) seeds = find_heads(lattice, params_.head);
+  if (shape) seeds = find_heads(scene.lattice, params_.head);
   const std::size_t heads = seeds.size();
   if (!skin) return seeds;
-  for (const HeadCandidate& part : find_skin_parts(cloud, lattice, skin_, params_.skin)) {
+  for (const HeadCandidate& part :
+       find_skin_parts(scene.cloud, scene.lattice, skin_, params_.skin)) {
     const auto same =
         std::find_if(seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(heads),
                      [&](const HeadCandidate& head) {
@@ -84,30 +129,37 @@ std::vector<HeadCandidate> Segmenter::find_seeds(const Cloud& cloud, const Latti
   return seeds;
 }
 
-std::vector<std::int16_t> Segmenter::grow_refined(const Cloud& cloud, const Lattice& lattice,
-                                                  int step, const std::vector<HeadCandidate>& seeds,
+std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
+                                                  const std::vector<HeadCandidate>& seeds,
                                                   Segments& result) const {
-  const FoundPeople people = find_people(lattice, seeds, classifier_, params_);
-  for (std::size_t k = 0; k < people.heads.size(); ++k) {
-    result.segments.push_back(make_segment(people.heads[k], lattice.frame, people.person_odds[k]));
-  }
+  const LevelFrame& frame = scene.lattice.frame;
+  const FoundPeople people = find_people(scene.lattice, seeds, classifier_, params_);
+  for (std::size_t k = 0; k < people.heads.size(); ++k)
+    result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {
-    result.segments.push_back(make_segment(rejected.head, lattice.frame, rejected.head.odds));
+    result.segments.push_back(make_segment(rejected.head, frame, rejected.head.odds));
     reject(rejected.rejection, result.segments.back());
   }
-  return cloud.organized() ? thicken(cloud, lattice, step, people.labels, params_.joint)
-                           : labels_of_points(cloud, lattice, people.labels, params_.joint);
+  return labels_of_cloud(scene, people.labels);
 }
 
-std::vector<std::int16_t> Segmenter::grow_as_paper(const Cloud& cloud, const Lattice& lattice,
+std::vector<std::int16_t> Segmenter::labels_of_cloud(
+    const Scene& scene, const std::vector<std::int16_t>& labels) const {
+  return scene.cloud.organized()
+             ? thicken(scene.cloud, scene.lattice, scene.step, labels, params_.joint)
+             : labels_of_points(scene.cloud, scene.lattice, labels, params_.joint);
+}
+
+std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,
                                                    const std::vector<HeadCandidate>& seeds,
                                                    Segments& result) const {
+  const Cloud& cloud = scene.cloud;
   const bool by_lattice = cloud.organized() && params_.search != SearchStructure::kKdTree;
   const auto search = by_lattice ? make_lattice_search(cloud) : make_kd_tree_search(cloud);
   std::vector<std::int16_t> labels(cloud.points_m.size(), kNobody);
   for (const PaperCluster& cluster :
-       find_people_as_paper(cloud, lattice, seeds, *search, params_)) {
-    result.segments.push_back(make_segment(cluster.seed, lattice.frame, 0.0F));
+       find_people_as_paper(cloud, scene.lattice, seeds, *search, params_)) {
+    result.segments.push_back(make_segment(cluster.seed, scene.lattice.frame, 0.0F));
     if (cluster.rejection) {
       reject(*cluster.rejection, result.segments.back());
       continue;
@@ -122,17 +174,17 @@ std::vector<std::int16_t> Segmenter::grow_as_paper(const Cloud& cloud, const Lat
   return labels;
 }
 
-void Segmenter::cut_out(const Cloud& cloud, const Lattice& lattice,
-                        const std::vector<std::int16_t>& labels, Segments& result) const {
-  const RangeImageSource source{cloud, labels, skin_, params_.skin.min_log_ratio,
+void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
+                              Segments& result) const {
+  const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
                                 params_.range_image_margin_m};
-  const Eigen::Vector3f down = -lattice.frame.level_from_sensor.row(2).transpose();
+  const Eigen::Vector3f down = -scene.lattice.frame.level_from_sensor.row(2).transpose();
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
     if (!segment.valid()) continue;
     const auto label = static_cast<std::int16_t>(k);
-    if (cloud.organized())
+    if (scene.cloud.organized())
       fill_from_camera(source, label, segment);
     else
       fill_from_scan(source, label, down, params_.panorama.focal_px, params_.panorama.gap_px,

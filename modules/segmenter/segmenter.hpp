@@ -21,18 +21,32 @@ class Segmenter {
   /// points and with the filter that ended them.
   Segments segment(const Cloud& cloud) const;
 
+  /// Cuts out the people whose heads' centres are told (sensor frame): one valid segment for each
+  /// head that the cloud shows, grown as `growing = refined` does. Finds and rejects nobody.
+  Segments cut_out_people(const Cloud& cloud, const std::vector<Eigen::Vector3f>& heads_m) const;
+
  private:
-  std::vector<HeadCandidate> find_seeds(const Cloud& cloud, const Lattice& lattice) const;
+  /// A cloud on the grid that its people are searched in.
+  struct Scene {
+    const Cloud& cloud;
+    Lattice lattice;
+    int step = 1;  ///< pixels of the cloud between two of the lattice's
+  };
+
+  Scene look_at(const Cloud& cloud) const;
+  std::vector<HeadCandidate> find_seeds(const Scene& scene) const;
   /// Both add segments to `result`, those of people first, and return the segment of each of the
   /// cloud's points.
-  std::vector<std::int16_t> grow_refined(const Cloud& cloud, const Lattice& lattice, int step,
+  std::vector<std::int16_t> grow_refined(const Scene& scene,
                                          const std::vector<HeadCandidate>& seeds,
                                          Segments& result) const;
-  std::vector<std::int16_t> grow_as_paper(const Cloud& cloud, const Lattice& lattice,
+  std::vector<std::int16_t> grow_as_paper(const Scene& scene,
                                           const std::vector<HeadCandidate>& seeds,
                                           Segments& result) const;
-  void cut_out(const Cloud& cloud, const Lattice& lattice, const std::vector<std::int16_t>& labels,
-               Segments& result) const;
+  std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
+                                            const std::vector<std::int16_t>& labels) const;
+  void fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
+                     Segments& result) const;
 
   Params params_;
   SkinColor skin_;

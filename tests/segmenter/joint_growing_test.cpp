@@ -1,0 +1,133 @@
+#include "modules/segmenter/joint_growing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <vector>
+
+namespace limbcast::segmenter {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 240;
+constexpr float kFocal_px = 260.0F;
+constexpr float kBody_m = 3.0F;
+
+/// Depth at a place across and up from the middle of the view, measured at the body's depth.
+using Scene = std::function<float(float right_m, float up_m)>;
+
+/// What a level camera sees of a scene; the ground is not known.
+Lattice look_at(const Scene& depth_at) {
+  Lattice lattice;
+  lattice.width = kWidth;
+  lattice.height = kHeight;
+  lattice.focal_px = kFocal_px;
+  lattice.frame = make_level_frame(Gravity{}, std::nullopt);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const float right = (static_cast<float>(u) - kWidth / 2) / kFocal_px,
+                  up = (kHeight / 2 - static_cast<float>(v)) / kFocal_px;
+      const float z_m = depth_at(right * kBody_m, up * kBody_m);
+      lattice.depth_m.push_back(z_m);
+      lattice.level_m.emplace_back(right * z_m, z_m, up * z_m);
+      lattice.source.push_back(static_cast<std::uint32_t>(lattice.source.size()));
+    }
+  }
+  return lattice;
+}
+
+std::uint32_t index_at(const Lattice& lattice, float right_m, float up_m) {
+  const int u = kWidth / 2 + static_cast<int>(right_m / kBody_m * kFocal_px),
+            v = kHeight / 2 - static_cast<int>(up_m / kBody_m * kFocal_px);
+  return static_cast<std::uint32_t>(lattice.index(u, v));
+}
+
+HeadCandidate head_at(const Lattice& lattice, float right_m, float up_m) {
+  const auto i = static_cast<int>(index_at(lattice, right_m, up_m));
+  HeadCandidate head;
+  head.u = i % kWidth;
+  head.v = i / kWidth;
+  head.surface_m = lattice.level_m[static_cast<std::size_t>(i)];
+  head.center_m = head_center(lattice, head.surface_m);
+  return head;
+}
+
+/// A board as wide as a trunk, from its head at 0.8 m down to -1 m, in front of nothing.
+float board(float right_m, float up_m) {
+  return std::abs(right_m) < 0.2F && up_m < 0.9F && up_m > -1.0F ? kBody_m : 0.0F;
+}
+
+/// The same, with a bar of 20 cm before its neck.
+float board_behind_bar(float right_m, float up_m) {
+  return up_m < 0.6F && up_m > 0.4F ? kBody_m - 0.4F : board(right_m, up_m);
+}
+
+std::vector<std::int16_t> labels_of(const Lattice& lattice,
+                                    const std::vector<HeadCandidate>& heads) {
+  return grow_together(lattice, heads, {}, {});
+}
+
+TEST(JointGrowth, TakesTheSurfaceOfItsHead) {
+  const Lattice lattice = look_at(board);
+  const auto labels = labels_of(lattice, {head_at(lattice, 0.0F, 0.8F)});
+  EXPECT_EQ(labels[index_at(lattice, 0.1F, -0.9F)], 0);
+}
+
+TEST(JointGrowth, GoesOnBehindWhatHidesABody) {
+  const Lattice lattice = look_at(board_behind_bar);
+  const auto labels = labels_of(lattice, {head_at(lattice, 0.0F, 0.8F)});
+  EXPECT_EQ(labels[index_at(lattice, 0.1F, -0.9F)], 0);
+  EXPECT_EQ(labels[index_at(lattice, 0.1F, 0.5F)], kNobody) << "the bar is no part of the body";
+}
+
+TEST(JointGrowth, StopsBehindSomethingWiderThanABody) {
+  const Lattice lattice = look_at([](float right_m, float up_m) {
+    return up_m < 0.6F && up_m > 0.0F ? kBody_m - 0.4F : board(right_m, up_m);
+  });
+  const auto labels = labels_of(lattice, {head_at(lattice, 0.0F, 0.8F)});
+  EXPECT_EQ(labels[index_at(lattice, 0.1F, -0.9F)], kNobody);
+}
+
+TEST(JointGrowth, DoesNotGoOnToAWall) {
+  const Lattice lattice = look_at([](float right_m, float up_m) {
+    return up_m < 0.4F ? kBody_m + 0.1F : board_behind_bar(right_m, up_m);
+  });
+  JointGrowingParams params;
+  params.max_part_m2 = 1.0F;  // the view holds 1.8 m of the wall
+  const auto labels = grow_together(lattice, {head_at(lattice, 0.0F, 0.8F)}, params, {});
+  EXPECT_EQ(labels[index_at(lattice, 0.0F, 0.0F)], kNobody);
+}
+
+TEST(JointGrowth, PartsTwoWhoTouchBetweenTheirHeads) {
+  const Lattice lattice = look_at([](float right_m, float up_m) {
+    return std::abs(right_m) < 0.6F ? board(0.0F, up_m) : 0.0F;
+  });
+  const auto labels =
+      labels_of(lattice, {head_at(lattice, -0.3F, 0.8F), head_at(lattice, 0.3F, 0.8F)});
+  EXPECT_EQ(labels[index_at(lattice, -0.1F, -0.5F)], 0);
+  EXPECT_EQ(labels[index_at(lattice, 0.1F, -0.5F)], 1);
+}
+
+TEST(JointGrowth, DroppedHeadLeavesWhatGrowsWithoutIt) {
+  const Lattice lattice = look_at(board_behind_bar);
+  const std::vector<HeadCandidate> heads = {head_at(lattice, 0.0F, 0.8F),
+                                            head_at(lattice, 0.1F, -0.2F)};
+  JointGrowth growth(lattice, heads, {}, {});
+  ASSERT_EQ(growth.labels()[index_at(lattice, 0.1F, -0.9F)], 1);
+
+  EXPECT_EQ(growth.drop(1), std::vector<std::int16_t>{0});
+
+  EXPECT_EQ(growth.labels(), labels_of(lattice, {heads[0]}));
+}
+
+TEST(JointGrowth, DroppedHeadLeavesClustersOutOfItsReachAlone) {
+  const Lattice lattice = look_at([](float right_m, float up_m) {
+    return right_m < -0.3F || right_m > 0.3F ? board(0.0F, up_m) : 0.0F;
+  });
+  JointGrowth growth(lattice, {head_at(lattice, -0.6F, 0.8F), head_at(lattice, 0.6F, 0.8F)}, {},
+                     {});
+  EXPECT_TRUE(growth.drop(0).empty());
+  EXPECT_EQ(growth.labels()[index_at(lattice, -0.6F, 0.0F)], kNobody);
+}
+
+}  // namespace
+}  // namespace limbcast::segmenter
