@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -145,10 +146,10 @@ bool Parser::parse(int argc, const char* const* argv) { return parse(argc, argv,
 bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
   po::options_description all;
   all.add_options()("help", "")("version", "")("argument", po::value<std::vector<std::string>>());
-  const auto declare = [&all](const std::string& name, bool is_flag) {
-    auto* value = po::value<std::string>();
-    if (is_flag) value->implicit_value("true", "true");
-    all.add_options()(name.c_str(), value, "");
+  std::set<std::string> flags;
+  const auto declare = [&](const std::string& name, bool is_flag) {
+    all.add_options()(name.c_str(), po::value<std::string>(), "");
+    if (is_flag) flags.insert("--" + name);
   };
   for (const Bound& bound : sections_) {
     for (const Section::Entry& entry : bound.section->entries_) {
@@ -158,7 +159,11 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
     }
   }
   std::vector<std::string> arguments;
-  for (int i = 1; i < argc; ++i) arguments.push_back(normalized_argument(argv[i]));
+  for (int i = 1; i < argc; ++i) {
+    arguments.push_back(normalized_argument(argv[i]));
+    // Else a bare flag would take the argument behind it for its value.
+    if (flags.count(arguments.back()) > 0) arguments.back() += "=true";
+  }
   po::positional_options_description positional;
   positional.add("argument", -1);
   po::parsed_options parsed(&all);

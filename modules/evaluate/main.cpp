@@ -9,6 +9,7 @@
 #include "common/pose_json/pose_lines.hpp"
 #include "modules/evaluate/picture.hpp"
 #include "modules/evaluate/report.hpp"
+#include "modules/evaluate/tracking.hpp"
 #include "modules/evaluate/truth_folder.hpp"
 
 namespace limbcast::evaluate {
@@ -18,7 +19,8 @@ using config::UsageError;
 
 struct Options {
   std::string log, poses, truth, bodies, json, picture;
-  std::string channel = "BODY_POSES", truth_channel = "GROUND_TRUTH";
+  std::string channel = "BODY_POSES", tracked_channel = "TRACKED_POSES";
+  std::string truth_channel = "GROUND_TRUTH";
   int worst = 0;
   bool brief = false;
 };
@@ -33,6 +35,8 @@ void declare(config::Section& section, Options& options) {
   section.add("json", options.json, "file to write all figures to as JSON");
   section.add("picture", options.picture, "file to draw the distribution of the errors to (PNG)");
   section.add("channel", options.channel, "channel of the poses in the log");
+  section.add("tracked-channel", options.tracked_channel,
+              "channel of the tracked poses in the log, to compare with the poses");
   section.add("truth-channel", options.truth_channel, "channel of the truth in the log");
   section.add("brief", options.brief, "print the main figures in one line instead of the table");
   section.add("worst", options.worst, "", "list so many of the worst findings", {0, 1000000});
@@ -65,6 +69,15 @@ std::vector<TruthFrame> read_truth(const Options& options) {
     throw UsageError(options.log + ": carries no truth on " + options.truth_channel +
                      "; give the folder of the truth with --truth");
   return frames;
+}
+
+/// Figures of tracking, where the log holds tracked poses.
+std::vector<Figure> compare_tracked(const Options& options, const std::vector<TruthFrame>& truth,
+                                    const std::vector<BodyPoses>& reported) {
+  if (options.log.empty() || options.channel == options.tracked_channel) return {};
+  const std::vector<BodyPoses> tracked = read_log(options.log, options.tracked_channel);
+  if (tracked.empty()) return {};
+  return tracking_figures(evaluate_tracking(truth, reported, tracked));
 }
 
 void write_file(const std::string& path, const std::string& text) {
@@ -104,7 +117,9 @@ void run(int argc, const char* const* argv) {
   if (tally.frames == tally.frames_not_reported)
     config::log(config::LogLevel::kWarning,
                 "no frame with truth was reported: do poses and truth belong together?");
-  const Report report = make_report(tally);
+  Report report = make_report(tally);
+  const std::vector<Figure> tracking = compare_tracked(options, truth, reported);
+  report.figures.insert(report.figures.end(), tracking.begin(), tracking.end());
   const std::string text =
       options.brief ? report_line(report, tally) : report_text(report, tally, options.worst);
   std::fputs(text.c_str(), stdout);

@@ -104,6 +104,7 @@ void Chain::work(const LogEvent& event, const Reconstructor& stereo, FrameResult
     case Level::kSegments:
       return from_segments(event.utime, decode<segments_t>(event.data), result);
     case Level::kPoses:
+      result.persons = decode<body_poses_t>(event.data).num_persons;
       return;
   }
 }

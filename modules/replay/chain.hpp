@@ -9,6 +9,7 @@
 #include "modules/pose_fitter/stage.hpp"
 #include "modules/reconstructor/stage.hpp"
 #include "modules/segmenter/stage.hpp"
+#include "modules/tracker/stage.hpp"
 
 namespace limbcast::replay {
 
@@ -19,6 +20,7 @@ struct ChainOptions {
   reconstructor::StageOptions reconstructor;
   segmenter::StageOptions segmenter;
   pose_fitter::StageOptions pose_fitter;
+  tracker::StageOptions tracker;
 };
 
 /// What became of one frame.
@@ -30,7 +32,8 @@ struct FrameResult {
 };
 
 /// Reconstructor, segmenter and pose fitter in one process, with the same stages as the three
-/// processes and through the same messages.
+/// processes and through the same messages. Frames are independent of one another so far; the
+/// tracker, which needs them in order, comes after.
 class Chain {
  public:
   explicit Chain(const ChainOptions& options);

@@ -27,13 +27,15 @@ void declare(config::Section& section, Options& options) {
   options.replay.threads = std::max(1U, std::thread::hardware_concurrency());
   section.add("threads", options.replay.threads, "",
               "frames worked on side by side; OUT is the same for any", {1, 256});
-  section.add_choice("from", options.from, {"images", "clouds", "segments"},
+  section.add_choice("from", options.from, {"images", "clouds", "segments", "poses"},
                      "first messages to work on; what comes before is only handed through");
+  section.add("tracker", options.replay.track, "follow people over time: adds tracked poses");
 }
 
 Level level_named(const std::string& name) {
   if (name == "clouds") return Level::kClouds;
   if (name == "segments") return Level::kSegments;
+  if (name == "poses") return Level::kPoses;
   return Level::kImages;
 }
 
@@ -72,11 +74,12 @@ void report(const ReplaySummary& summary, const std::string& in, double seconds)
 void run(int argc, const char* const* argv) {
   Options options;
   config::Section section("replay"), reconstructor("reconstructor"), segmenter("segmenter"),
-      pose_fitter("pose_fitter");
+      pose_fitter("pose_fitter"), tracker("tracker");
   declare(section, options);
   reconstructor::declare(reconstructor, options.chain.reconstructor);
   segmenter::declare(segmenter, options.chain.segmenter);
   pose_fitter::declare(pose_fitter, options.chain.pose_fitter);
+  tracker::declare(tracker, options.chain.tracker);
   config::Parser parser(
       "limbcast-replay",
       "Runs the whole chain over a log in one process: the same log and options give "
@@ -85,7 +88,7 @@ void run(int argc, const char* const* argv) {
   parser.add_positional("OUT.log", options.replay.out,
                         "what IN holds, with clouds, segments and poses");
   parser.add(section);
-  for (config::Section* stage : {&reconstructor, &segmenter, &pose_fitter})
+  for (config::Section* stage : {&reconstructor, &segmenter, &pose_fitter, &tracker})
     parser.add(*stage, false);
   if (!parser.parse(argc, argv)) return;
   options.replay.from = level_named(options.from);

@@ -7,6 +7,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "common/config/log.hpp"
+#include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/replay/ordered_workers.hpp"
@@ -17,8 +18,6 @@ namespace {
 using config::UsageError;
 using lcm_io::LogEvent;
 
-/// Made from poses by the tracker: stale once the poses are made anew.
-constexpr const char* kTrackedPosesChannel = "TRACKED_POSES";
 /// Frames in work or waiting to be written for each thread: keeps the threads busy beside a slow
 /// frame.
 constexpr std::size_t kPendingPerThread = 4;
@@ -32,7 +31,9 @@ struct Contents {
 class Replay {
  public:
   Replay(const ReplayOptions& options, const ChainOptions& chain)
-      : options_(options), chain_(chain) {}
+      : options_(options), chain_(chain), channels_(chain.tracker) {
+    if (options.track) tracker_.emplace(chain.tracker);
+  }
 
   ReplaySummary run(const Progress& progress) {
     survey();
@@ -70,7 +71,7 @@ class Replay {
     while (const auto event = reader.next()) {
       if (chain_.is_calibration(event->channel)) chain_.on_first_calibration(*event);
       const auto level = chain_.level_of(event->channel);
-      if (!level || *level == Level::kPoses || *level < options_.from) continue;
+      if (!level || !may_begin(*level)) continue;
       if (const auto sensor = chain_.sensor_of(*event)) ++counts[{*sensor, *level}];
     }
     // The map's order is by sensor, then level: the first entry of a sensor is its first level.
@@ -81,6 +82,10 @@ class Replay {
       throw UsageError(options_.in +
                        ": holds no images, clouds or segments to begin with; see --from and the "
                        "options of channels");
+  }
+
+  bool may_begin(Level level) const {
+    return level >= options_.from && (level != Level::kPoses || options_.track);
   }
 
   void take_calibration(const LogEvent& event) {
@@ -111,14 +116,14 @@ class Replay {
 
   bool begins_chain(const LogEvent& event) const {
     const auto level = chain_.level_of(event.channel);
-    if (!level || *level == Level::kPoses || *level < options_.from) return false;
+    if (!level || !may_begin(*level)) return false;
     const auto sensor = chain_.sensor_of(event);
     // A malformed message goes through the chain as a frame, which names what is wrong with it.
     return !sensor || contents_.first_level.at(*sensor) == *level;
   }
 
   bool is_stale(const LogEvent& event) const {
-    if (event.channel == lcm_io::kStatusChannel || event.channel == kTrackedPosesChannel)
+    if (event.channel == lcm_io::kStatusChannel || event.channel == channels_.tracked_poses_channel)
       return true;
     const auto level = chain_.level_of(event.channel);
     if (!level || *level < options_.from) return false;
@@ -135,8 +140,20 @@ class Replay {
     if (!oldest.is_frame) return;
     const FrameResult result = workers.take();
     for (const LogEvent& event : result.events) writer.write(event);
+    write_tracked(result.events.empty() ? oldest.event : result.events.back(), writer);
     count(oldest.event, result);
     progress(summary_.frames, contents_.frames);
+  }
+
+  /// Follows people from the last event of a frame, where that holds poses. What is malformed was
+  /// counted before.
+  void write_tracked(const LogEvent& event, lcm_io::LogWriter& writer) {
+    if (!tracker_ || event.channel != channels_.body_poses_channel) return;
+    try {
+      const auto tracked = tracker_->process(lcm_io::decode<body_poses_t>(event.data));
+      if (tracked) writer.write(event.utime, channels_.tracked_poses_channel, *tracked);
+    } catch (const lcm_io::MessageError&) {
+    }
   }
 
   void count(const LogEvent& event, const FrameResult& result) {
@@ -153,6 +170,8 @@ class Replay {
 
   ReplayOptions options_;
   Chain chain_;
+  tracker::StageOptions channels_;
+  std::optional<tracker::Stage> tracker_;
   Contents contents_;
   ReplaySummary summary_;
   std::deque<Waiting> waiting_;
@@ -164,10 +183,16 @@ void check_files(const ReplayOptions& options) {
     throw UsageError(options.out + ": is the log that is replayed; give another OUT.log");
 }
 
+void check_levels(const ReplayOptions& options) {
+  if (options.from == Level::kPoses && !options.track)
+    throw UsageError("--from poses needs --tracker: nothing else is made from poses");
+}
+
 }  // namespace
 
 ReplaySummary replay(const ReplayOptions& options, const ChainOptions& chain,
                      const Progress& progress) {
+  check_levels(options);
   check_files(options);
   // Frames are worked on side by side, so that threads within a frame would only get in each
   // other's way.

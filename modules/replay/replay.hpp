@@ -13,6 +13,8 @@ struct ReplayOptions {
   int threads = 1;
   /// Messages before this level are handed through, but nothing is made from them.
   Level from = Level::kImages;
+  /// Follow people over time too: tracked poses after the poses.
+  bool track = false;
 };
 
 struct ReplaySummary {
@@ -27,10 +29,10 @@ struct ReplaySummary {
 using Progress = std::function<void(int done, int total)>;
 
 /// Replays a log: every frame of every sensor goes through the chain from the first level that the
-/// log holds for this sensor. OUT holds what IN holds, in its order and with its times, each frame
-/// followed by what was made from it, without what an earlier run had made (clouds, segments, poses
-/// of the same sensor, tracked poses, status messages). A frame that comes before its camera's
-/// calibration takes the first one that follows.
+/// log holds for this sensor (from poses only where people are tracked). OUT holds what IN holds,
+/// in its order and with its times, each frame followed by what was made from it, without what an
+/// earlier run had made (clouds, segments, poses of the same sensor, tracked poses, status
+/// messages). A frame that comes before its camera's calibration takes the first one that follows.
 ///
 /// Throws config::UsageError where IN cannot be used or OUT cannot be made, std::runtime_error
 /// where OUT cannot be written to its end.

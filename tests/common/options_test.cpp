@@ -54,6 +54,14 @@ class OptionsTest : public ::testing::Test {
   std::ostringstream out_;
 };
 
+TEST_F(OptionsTest, TakesNoArgumentForTheValueOfABareFlag) {
+  EXPECT_TRUE(parse({"--verbose", "in.log"}));
+  EXPECT_TRUE(settings_.verbose);
+  EXPECT_EQ(settings_.input, "in.log");
+  EXPECT_TRUE(parse({"--pose_fitter.verbose=false", "in.log"}));
+  EXPECT_FALSE(settings_.verbose);
+}
+
 TEST_F(OptionsTest, KeepsDefaultsWithoutOptions) {
   EXPECT_TRUE(parse({"in.log"}));
   EXPECT_EQ(settings_.input, "in.log");

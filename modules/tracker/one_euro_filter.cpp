@@ -1,0 +1,41 @@
+#include "modules/tracker/one_euro_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace limbcast::tracker {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Weight of a new sample in an exponential filter of that cutoff.
+float sample_weight(double cutoff_hz, double elapsed_s) {
+  const double time_constant_s = 1.0 / (2.0 * kPi * cutoff_hz);
+  return static_cast<float>(elapsed_s / (elapsed_s + time_constant_s));
+}
+
+}  // namespace
+
+void OneEuroFilter::restart(const Eigen::Vector3f& value, const Eigen::Vector3f& speed) {
+  started_ = true;
+  value_ = last_measured_ = value;
+  speed_ = speed;
+  memory_ = 1.0;
+}
+
+void OneEuroFilter::update(const Eigen::Vector3f& value, double elapsed_s) {
+  const Eigen::Vector3f measured_speed = (value - last_measured_) / static_cast<float>(elapsed_s);
+  speed_ += sample_weight(params_.speed_cutoff_hz, elapsed_s) * (measured_speed - speed_);
+  const double motion = std::max(0.0, speed_.norm() - params_.rest_speed);
+  const double cutoff_hz = params_.min_cutoff_hz + params_.speed_coefficient * motion;
+  memory_ = std::min(memory_ + 1.0, 1.0 / sample_weight(cutoff_hz, elapsed_s));
+  value_ += (value - value_) / static_cast<float>(memory_);
+  last_measured_ = value;
+}
+
+void OneEuroFilter::predict(double elapsed_s, double decay_s) {
+  speed_ *= static_cast<float>(std::exp(-elapsed_s / decay_s));
+  value_ += speed_ * static_cast<float>(elapsed_s);
+}
+
+}  // namespace limbcast::tracker

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace limbcast::tracker {
+
+/// How a position is smoothed: G. Casiez, N. Roussel, D. Vogel, "1 Euro Filter", CHI 2012, with two
+/// changes: a speed below which nothing counts as motion, because noise alone looks as fast as
+/// that, and a mean of all samples since the last motion until the cutoff allows no longer memory,
+/// so that a value is steady soon after it came to rest.
+struct OneEuroParams {
+  /// Cutoff at rest [Hz]. Lower: less jitter. 0.25 Hz at 10 frames a second leaves 26 % of white
+  /// noise.
+  double min_cutoff_hz = 0.25;
+  /// How much the cutoff rises with the speed beyond `rest_speed` [Hz per unit of the value / s].
+  /// Higher: less lag.
+  double speed_coefficient = 20.0;
+  /// Speed that noise alone shows [unit of the value / s].
+  double rest_speed = 0.2;
+  /// Cutoff of the speed itself [Hz]: the paper's value.
+  double speed_cutoff_hz = 1.0;
+};
+
+/// Low-pass filter of a point that is steady where it rests and quick where it moves.
+class OneEuroFilter {
+ public:
+  explicit OneEuroFilter(const OneEuroParams& params) : params_(params) {}
+
+  bool started() const { return started_; }
+  /// Starts anew at `value`.
+  void restart(const Eigen::Vector3f& value,
+               const Eigen::Vector3f& speed = Eigen::Vector3f::Zero());
+  /// Takes the value measured `elapsed_s` after the last measurement.
+  void update(const Eigen::Vector3f& value, double elapsed_s);
+  /// Goes on for `elapsed_s` without a measurement: the value moves at its speed, which dies away
+  /// within `decay_s`.
+  void predict(double elapsed_s, double decay_s);
+
+  /// The smoothed value.
+  const Eigen::Vector3f& value() const { return value_; }
+  /// The last measured value.
+  const Eigen::Vector3f& measured() const { return last_measured_; }
+  /// Smoothed speed [unit of the value / s].
+  const Eigen::Vector3f& speed() const { return speed_; }
+
+ private:
+  OneEuroParams params_;
+  bool started_ = false;
+  Eigen::Vector3f value_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f last_measured_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f speed_ = Eigen::Vector3f::Zero();
+  double memory_ = 1.0;  ///< number of samples over which it averages
+};
+
+}  // namespace limbcast::tracker

@@ -1,0 +1,63 @@
+#include "modules/tracker/one_euro_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace limbcast::tracker {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr double kFrame_s = 0.1;
+
+TEST(OneEuroFilter, HalvesTheNoiseOfAValueAtRest) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise_m(0.0F, 0.01F);
+  OneEuroFilter filter({});
+  filter.restart(Vector3f::Zero());
+  double sum_in = 0.0, sum_out = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3f measured(noise_m(random), noise_m(random), noise_m(random));
+    filter.update(measured, kFrame_s);
+    if (i < 10) continue;
+    sum_in += measured.squaredNorm();
+    sum_out += filter.value().squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(sum_out / sum_in), 0.5);
+}
+
+TEST(OneEuroFilter, LagsLessThanAFrameBehindSteadyMotion) {
+  OneEuroFilter filter({});
+  filter.restart(Vector3f::Zero());
+  constexpr float kStep_m = 0.1F;  // 1 m/s
+  for (int i = 1; i <= 20; ++i)
+    filter.update({kStep_m * static_cast<float>(i), 0.0F, 0.0F}, kFrame_s);
+  EXPECT_GT(filter.value().x(), 20 * kStep_m - 0.5F * kStep_m);
+}
+
+TEST(OneEuroFilter, IsTheMeanOfItsFirstSamplesAtRest) {
+  OneEuroFilter filter({});
+  filter.restart({0.000F, 0.0F, 0.0F});
+  filter.update({0.003F, 0.0F, 0.0F}, kFrame_s);
+  filter.update({0.006F, 0.0F, 0.0F}, kFrame_s);
+  EXPECT_NEAR(filter.value().x(), 0.003F, 1e-6F);
+}
+
+TEST(OneEuroFilter, PredictsAlongItsSpeedAndComesToRest) {
+  OneEuroFilter filter({});
+  filter.restart(Vector3f::Zero(), {1.0F, 0.0F, 0.0F});
+  constexpr double kDecay_s = 0.2;
+  float last = 0.0F;
+  for (int i = 0; i < 50; ++i) {
+    filter.predict(kFrame_s, kDecay_s);
+    EXPECT_GE(filter.value().x(), last);
+    last = filter.value().x();
+  }
+  // Sum of 0.1 s * exp(-n / 2), n = 1, 2 ...
+  EXPECT_NEAR(last, 0.1 / (std::exp(0.5) - 1.0), 1e-3);
+}
+
+}  // namespace
+}  // namespace limbcast::tracker
