@@ -160,6 +160,27 @@ TEST(RefinedFitter, FindsNobodyInAWall) {
   EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
 }
 
+TEST(RefinedCost, RulesOutAnArmFarBehindTheTrunk) {
+  const Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  const RefinedParams params;
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  ASSERT_TRUE(observation);
+  // 20 degrees before and behind the trunk's plane, then 50.
+  const auto cost_at = [&](double degrees_behind) {
+    BodyState body = testing::standing_body(2.5, 0.0);
+    testing::point_with(
+        body, 0, {std::cos(degrees_behind * kDegree), 0.0, std::sin(degrees_behind * kDegree)});
+    refined::NormalEquations equations;
+    equations.clear(false);
+    add_prior_terms(body, make_cones_of(body), *observation, refined::kAllParts, params, equations);
+    return equations.cost;
+  };
+
+  // Where front and back look alike, noise and clothes decide by up to about 10 units of cost.
+  EXPECT_LT(std::abs(cost_at(20.0) - cost_at(-20.0)), 5.0);
+  EXPECT_GT(cost_at(50.0) - cost_at(-50.0), 10.0);
+}
+
 TEST(RefinedCost, HasTheGradientOfItsDifferences) {
   BodyState body = testing::standing_body(2.5, 20.0 * kDegree);
   const Segment segment = testing::seen(body);

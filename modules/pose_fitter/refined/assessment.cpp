@@ -15,11 +15,10 @@ constexpr Real kDegree = M_PI / 180.0;
 constexpr Real kMostEvidence = 30.0;
 /// A joint less sure than this is left out.
 constexpr Real kLeastJointConfidence = 0.08;
-/// A direction less sure than this, or with less to speak for it, is not told.
+/// A direction less sure than this is not told.
 constexpr Real kLeastPointingConfidence = 0.65;
 /// A body less sure than this is no person.
-constexpr Real kLeastPersonConfidence = 0.15;
-constexpr Real kLeastArmSupport = 3.0, kLeastArmGap = 1.0;
+constexpr Real kLeastPersonConfidence = 0.3;
 /// Posterior spreads are too small, as neighbouring points share their errors: measured error
 /// against stated sigma on the tuning half.
 constexpr Real kSigmaScale = 1.6;
@@ -40,20 +39,22 @@ Real joint_confidence(const Evidence& evidence, int joint) {
   return logistic(x);
 }
 
+/// That the arm axis is right: a straight arm in sight, in a body that fits well, without a rival.
 Real pointing_confidence(const Evidence& evidence, const ArmEvidence& arm) {
-  return logistic(-3.32 + 1.25 * strength(arm.gap) + 1.07 * strength(evidence.flip_gap) -
-                  0.55 * std::log(std::max(0.1, arm.sigma_rad / kDegree)) +
-                  0.82 * arm.supported_share);
+  const Real sigma_deg = std::max(0.1, arm.sigma_rad / kDegree);
+  return logistic(1.65 + 1.23 * strength(arm.gap) + 0.68 * strength(arm.support) -
+                  0.50 * std::log(sigma_deg) - 2.01 * arm.bend_rad / (45.0 * kDegree) -
+                  0.98 * std::log(std::max(0.1, evidence.prior_cost)) -
+                  3.19 * std::min(1.0, evidence.surface_cost / evidence.weight));
 }
 
-/// Furniture fits a body too, but badly or in an odd posture.
-Real person_confidence(const BodyState& body, const Evidence& evidence) {
-  const Real weight = std::max(1.0, evidence.weight);
-  return logistic(10.09 - 4.75 * std::log(std::max(0.1, evidence.prior_cost)) -
-                  4.77 * std::min(1.0, evidence.surface_cost / weight) +
-                  0.36 * std::log(evidence.free_space_cost / weight + 0.003) +
-                  0.39 * std::min(1.5, evidence.head_weight / 15.0) -
-                  0.66 * std::abs(std::log(body.stature_m() / 1.65)) + 1.21 * std::log(weight));
+/// Furniture fits a body too, but in an odd posture, as well from the back, and without limbs of
+/// its own.
+Real person_confidence(const Evidence& evidence) {
+  const Real arms = strength(evidence.arms[0].support) + strength(evidence.arms[1].support);
+  return logistic(7.14 - 2.62 * std::log(std::max(0.1, evidence.prior_cost)) -
+                  1.34 * std::log(evidence.weight) + 0.90 * strength(evidence.flip_gap) +
+                  0.70 * arms + 5.30 * evidence.legs_share);
 }
 
 }  // namespace
@@ -72,14 +73,10 @@ std::optional<BodyPose> assess(const BodyState& body, const Evidence& evidence,
     const ArmEvidence& arm = evidence.arms[pointing.side == Side::kLeft ? 0 : 1];
     pointing.confidence = static_cast<float>(pointing_confidence(evidence, arm));
     pointing.sigma_rad = static_cast<float>(kSigmaScale * arm.sigma_rad);
-    if (pointing.confidence < kLeastPointingConfidence || arm.support < kLeastArmSupport ||
-        arm.gap < kLeastArmGap) {
-      continue;
-    }
-    pose.pointing.push_back(pointing);
+    if (pointing.confidence >= kLeastPointingConfidence) pose.pointing.push_back(pointing);
   }
   pose.scale = static_cast<float>(body.stature_m() / kReferenceStatureM);
-  pose.confidence = static_cast<float>(person_confidence(body, evidence));
+  pose.confidence = static_cast<float>(person_confidence(evidence));
   if (pose.confidence < kLeastPersonConfidence) return std::nullopt;
   return pose;
 }

@@ -68,7 +68,6 @@ struct ConeSpec {
   bool lower_arm = false;    ///< forearm or hand: what carries the pointing direction
 };
 inline constexpr int kConeCount = 22;
-enum ConeIndex : int { kHeadCone = 0, kNeckCone = 1 };
 /// Radii and offsets: fitted to frames of the tuning half with true joints and true depth.
 const std::array<ConeSpec, kConeCount>& cone_specs();
 

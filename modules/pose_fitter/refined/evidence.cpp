@@ -17,8 +17,6 @@ constexpr std::array<Real, kPointCount> kPointRadius = {
     0.065, 0.065, 0.038, 0.038, 0.030, 0.030, 0.020, 0.020, 0.020, 0.020};
 /// A point that lies deeper behind the seen surface than its radius and this is hidden [m].
 constexpr Real kHiddenM = 0.08;
-/// A point's residual within so many sigmas of the surface is explained.
-constexpr Real kExplainedSigmas = 3.0;
 /// An arm whose axis differs by more is another arm: cosine of 20 degrees.
 constexpr Real kOtherArmCosine = 0.94;
 constexpr Real kNoRival = 1e3;
@@ -75,28 +73,6 @@ bool in_sight(const Observation& observation, const Vec3& point, Real radius) {
   return surface <= 0.0 || surface > point.z() - radius - kHiddenM - noise;
 }
 
-/// Share of samples along the arm whose skin is seen where the model has it.
-Real supported_share(const Observation& observation, const Cones& cones, int side) {
-  int samples = 0, supported = 0;
-  for (int c = 0; c < kConeCount; ++c) {
-    if (cone_specs()[c].part != (side == 0 ? Part::kLeftArm : Part::kRightArm)) continue;
-    for (const Real t : {0.25, 0.5, 0.75, 1.0}) {
-      const Vec3 center = cones[c].point(t);
-      ++samples;
-      if (center.z() < 0.1) continue;
-      const PinholeCamera& camera = observation.camera;
-      const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
-      const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
-      if (!observation.inside(u, v)) continue;
-      const Real surface = observation.surface_m[observation.at(u, v)];
-      const Real noise = 2.0 * observation.noise.sigma_m(static_cast<float>(center.z()));
-      if (surface > 0.0 && std::abs(surface - (center.z() - cones[c].radius(t))) < 0.05 + noise)
-        ++supported;
-    }
-  }
-  return samples > 0 ? static_cast<Real>(supported) / samples : 0.0;
-}
-
 Real surface_cost_without(const Cones& cones, const FitStage& stage, unsigned parts,
                           Real robust_sigmas) {
   const auto workspace = std::make_unique<Workspace>();
@@ -108,19 +84,50 @@ Real surface_cost_without(const Cones& cones, const FitStage& stage, unsigned pa
   return equations->cost;
 }
 
-void weigh_points(const Cones& cones, const FitStage& stage, Evidence& evidence) {
+void weigh_points(const Cones& cones, const PointColumns& points, Evidence& evidence) {
   NearestCones nearest;
-  const PointColumns& points = *stage.points;
   nearest_cones(points, cones, kAllParts, nullptr, nearest);
-  Real explained = 0.0;
+  Real legs = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     evidence.weight += points.weight[i];
-    const Real sigma = std::hypot(stage.surface_sigma_m, points.sigma_m[i]);
-    if (std::abs(nearest.distance[i]) > kExplainedSigmas * sigma) continue;
-    explained += points.weight[i];
-    if (nearest.cone[i] == kHeadCone) evidence.head_weight += points.weight[i];
+    if (cone_specs()[nearest.cone[i]].part == Part::kLegs) legs += points.weight[i];
   }
-  evidence.explained_share = explained / std::max(1e-9, evidence.weight);
+  evidence.weight = std::max(1e-3, evidence.weight);
+  evidence.legs_share = legs / evidence.weight;
+}
+
+Vec3 arm_axis(const BodyState& body, int side) {
+  return (body.points[kWrist + side] - body.points[kShoulder + side]).normalized();
+}
+
+bool faces_the_other_way(const BodyState& a, const BodyState& b) {
+  return a.front().dot(b.front()) < 0.0;
+}
+
+Real flip_gap(const std::vector<PoseCandidate>& candidates) {
+  const PoseCandidate& best = candidates.front();
+  Real gap = kNoRival;
+  for (const PoseCandidate& rival : candidates) {
+    if (faces_the_other_way(rival.body, best.body)) gap = std::min(gap, rival.cost - best.cost);
+  }
+  return gap;
+}
+
+/// Rivals are other bodies, and other arms of the best one.
+Real arm_gap(const std::vector<PoseCandidate>& candidates, int side, PoseSearch& search) {
+  const PoseCandidate& best = candidates.front();
+  const auto is_rival = [&](const BodyState& body) {
+    return faces_the_other_way(body, best.body) ||
+           arm_axis(body, side).dot(arm_axis(best.body, side)) < kOtherArmCosine;
+  };
+  Real gap = kNoRival;
+  for (const PoseCandidate& rival : candidates) {
+    if (is_rival(rival.body)) gap = std::min(gap, rival.cost - best.cost);
+  }
+  for (const PoseCandidate& rival : search.other_arms(best, side)) {
+    if (is_rival(rival.body)) gap = std::min(gap, rival.cost);
+  }
+  return gap;
 }
 
 }  // namespace
@@ -137,7 +144,6 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
   const auto equations = std::make_unique<NormalEquations>();
   const CostTerms terms = solver.evaluate_at(body, stage, *equations);
   evidence.surface_cost = terms.surface;
-  evidence.free_space_cost = terms.free_space;
   evidence.prior_cost = terms.priors;
   const Covariance covariance = posterior(*equations);
   for (int i = 0; i < kPointCount; ++i) {
@@ -145,32 +151,18 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
     evidence.in_sight[i] =
         in_sight(observation, body.points[i], kPointRadius[i] * body.stature_m());
   }
-  weigh_points(cones, stage, evidence);
+  weigh_points(cones, *stage.points, evidence);
 
-  evidence.flip_gap = kNoRival;
-  for (const PoseCandidate& rival : candidates) {
-    if (rival.body.front().dot(body.front()) < 0.0) {
-      evidence.flip_gap = std::min(evidence.flip_gap, rival.cost - best.cost);
-    }
-  }
+  evidence.flip_gap = flip_gap(candidates);
   for (int side = 0; side < 2; ++side) {
     ArmEvidence& arm = evidence.arms[side];
-    const Vec3 upper = body.points[kElbow + side] - body.points[kShoulder + side];
-    const Vec3 fore = body.points[kWrist + side] - body.points[kElbow + side];
-    arm.bend_rad = angle(upper, fore);
-    arm.raise_rad = angle(upper + fore, body.points[kPelvis] - body.points[kNeck]);
+    arm.bend_rad = angle(body.points[kElbow + side] - body.points[kShoulder + side],
+                         body.points[kWrist + side] - body.points[kElbow + side]);
     arm.sigma_rad = axis_sigma(body, covariance, side);
     arm.support = surface_cost_without(cones, stage, kAllParts & ~arm_bit(side),
                                        solver.params().robust_sigmas) -
                   terms.surface;
-    arm.supported_share = supported_share(observation, cones, side);
-    arm.gap = kNoRival;
-    for (const PoseCandidate& rival : search.other_arms(best, side)) {
-      const Vec3 axis = rival.body.points[kWrist + side] - rival.body.points[kShoulder + side];
-      if (axis.normalized().dot((upper + fore).normalized()) < kOtherArmCosine) {
-        arm.gap = std::min(arm.gap, rival.cost);
-      }
-    }
+    arm.gap = arm_gap(candidates, side, search);
   }
   return evidence;
 }

@@ -8,22 +8,19 @@ namespace limbcast::pose_fitter::refined {
 
 /// What speaks for one arm of a fitted body.
 struct ArmEvidence {
-  Real support = 0.0;          ///< cost that leaving the arm out would add
-  Real gap = 0.0;              ///< cost that the best arm in another direction would add
-  Real bend_rad = 0.0;         ///< upper arm against forearm
-  Real raise_rad = 0.0;        ///< arm axis against the trunk's way down
-  Real sigma_rad = 0.0;        ///< of the arm axis, from the posterior covariance
-  Real supported_share = 0.0;  ///< share of the axis samples with the skin where it should be
+  Real support = 0.0;    ///< cost that leaving the arm out would add
+  Real gap = 0.0;        ///< cost that the best body with this arm in another direction would add
+  Real bend_rad = 0.0;   ///< upper arm against forearm
+  Real sigma_rad = 0.0;  ///< of the arm axis, from the posterior covariance
 };
 
 /// What speaks for a fitted body.
 struct Evidence {
   std::array<ArmEvidence, 2> arms;
-  Real flip_gap = 0.0;         ///< cost that the best body facing the other way would add
-  Real explained_share = 0.0;  ///< of the points' weight
-  Real weight = 0.0;           ///< of all points
-  Real head_weight = 0.0;      ///< of those on the head
-  Real surface_cost = 0.0, free_space_cost = 0.0, prior_cost = 0.0;
+  Real flip_gap = 0.0;    ///< cost that the best body facing the other way would add
+  Real weight = 0.0;      ///< of all points
+  Real legs_share = 0.0;  ///< of that weight, nearest to the legs
+  Real surface_cost = 0.0, prior_cost = 0.0;
   std::array<Real, kPointCount> sigma_m{};   ///< of each point along its worst axis
   std::array<bool, kPointCount> in_sight{};  ///< nothing seen before it, in the image
 };

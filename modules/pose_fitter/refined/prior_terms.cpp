@@ -16,6 +16,10 @@ constexpr Real kHeadStartSigmaM = 0.05;
 constexpr Real kSymmetrySigmaM = 0.006;
 constexpr Real kHandSigma = 0.012;
 constexpr Real kPenetrationSigmaM = 0.02;
+/// Upper arms of people who point, wave, walk or stand akimbo (truth of D1-D3 and of simulated
+/// people) do not reach farther behind the trunk's plane than this, as a cosine: a raised arm, and
+/// what a hanging one may more. A body taken back to front would need it.
+constexpr Real kArmBehindLimit = -0.37, kHangingArmBehindMore = -0.30, kArmBehindSigma = 0.08;
 /// Ankles of who stands or sits are this high over the floor, no lower; who walks or climbs lifts
 /// one.
 constexpr Real kAnkleHeight = 0.046, kAnkleBelowSigma = 0.012, kAnkleAboveSigma = 0.020;
@@ -119,6 +123,23 @@ class Priors {
     equations_.derivative_of_point(wrist, reach / distance);
     equations_.derivative_of_point(shoulder, -reach / distance);
     equations_.add_residual(folded, 0.01 * stature_);
+  }
+
+  /// A shoulder does not let the upper arm far behind the trunk.
+  void shoulder_limit(int side) {
+    const int shoulder = kShoulder + side, elbow = kElbow + side;
+    const Vec3 local = body_.rotation.transpose() * (body_.points[elbow] - body_.points[shoulder]);
+    const Real length = local.norm() + 1e-9;
+    const Real hanging = std::max(0.0, -local.y() / length);
+    const Real beyond = local.z() - (kArmBehindLimit + kHangingArmBehindMore * hanging) * length;
+    if (beyond >= 0.0) return;
+    const Vec3 front = body_.front();
+    equations_.start_row();
+    equations_.derivative_of_point(elbow, front);
+    equations_.derivative_of_point(shoulder, -front);
+    equations_.derivative(kRotation + 0, -local.y());
+    equations_.derivative(kRotation + 1, local.x());
+    equations_.add_residual(beyond, kArmBehindSigma * length);
   }
 
   /// A point of an arm stands outside head and trunk.
@@ -272,6 +293,7 @@ void add_arm(const BodyState& body, int side, Priors& priors) {
   add_proportions(side, true, priors);
   priors.hand(side);
   priors.elbow(side);
+  priors.shoulder_limit(side);
 }
 
 /// What ties an arm to the rest: the arms' lengths, no limb in another one.
