@@ -1,14 +1,22 @@
 #include "common/lcm_io/bus.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <stdexcept>
 
+#include "common/config/log.hpp"
 #include "common/config/options.hpp"
+#include "common/lcm_io/lcm_url.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
 
 /// How long the receiving thread may take to see that it shall end [ms].
 constexpr int kReceiveTimeoutMs = 50;
+/// How often a host without network is asked again.
+constexpr std::chrono::milliseconds kNetworkPeriod{200};
 
 }  // namespace
 
@@ -16,6 +24,20 @@ std::string effective_url(const std::string& url) {
   if (!url.empty()) return url;
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
+}
+
+void wait_for_network(const std::string& url) {
+  const auto multicast = parse_multicast_url(effective_url(url));
+  if (!multicast) return;
+  std::string reason = why_unreachable(*multicast);
+  if (reason.empty()) return;
+  config::log(config::LogLevel::kWarning,
+              "waits for a multicast route to " + multicast->address + " (" + reason +
+                  "); without a network: ip route add 224.0.0.0/4 dev lo");
+  while (!reason.empty()) {
+    std::this_thread::sleep_for(kNetworkPeriod);
+    reason = why_unreachable(*multicast);
+  }
 }
 
 Bus::Bus(const std::string& url) : lcm_(effective_url(url)) {
@@ -50,29 +72,38 @@ void Bus::subscribe_bytes(const std::string& channel, Keep keep,
   subscription->channel = channel;
   subscription->keep = keep;
   subscription->handler = std::move(handler);
-  lcm::Subscription* made = lcm_.subscribeFunction(channel, &Bus::on_message, subscription.get());
+  // The C++ interface does not tell when LCM refuses.
+  lcm_subscription_t* made =
+      lcm_subscribe(lcm_.getUnderlyingLCM(), channel.c_str(), &Bus::on_message, subscription.get());
+  if (made == nullptr)
+    throw std::runtime_error("LCM hears nothing of what it sends itself on " + channel +
+                             "; check firewall and multicast route with limbcast-doctor");
   // LCM counts a queue for each subscription; ours is emptied at once, so its length only covers
   // bursts.
   constexpr int kReceiveQueue = 1000;
-  made->setQueueCapacity(kReceiveQueue);
+  lcm_subscription_set_queue_capacity(made, kReceiveQueue);
   subscriptions_.push_back(std::move(subscription));
   if (!receiver_.joinable()) receiver_ = std::thread(&Bus::receive, this);
 }
 
-void Bus::publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
-  lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
+std::string Bus::publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+  const int status = lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
+  return status < 0 ? std::strerror(errno) : "";
 }
 
-void Bus::on_message(const lcm::ReceiveBuffer* buffer, const std::string& /*channel*/,
-                     Subscription* subscription) {
+void Bus::on_message(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* context) {
+  // LCM lets a packet pass that ends within its channel's name, with a size below 0; without bytes
+  // it counts as malformed.
+  const auto size = std::max(0, static_cast<std::int32_t>(buffer->data_size));
   const auto* data = static_cast<const std::uint8_t*>(buffer->data);
+  auto* subscription = static_cast<Subscription*>(context);
   Bus& bus = *subscription->bus;
   const std::lock_guard lock(bus.mutex_);
   if (subscription->keep == Keep::kNewest && !subscription->pending.empty()) {
     subscription->pending.clear();
     ++bus.skipped_;
   }
-  subscription->pending.push_back({bus.next_order_++, {data, data + buffer->data_size}});
+  subscription->pending.push_back({bus.next_order_++, {data, data + size}});
   bus.arrived_.notify_one();
 }
 

@@ -22,6 +22,10 @@ inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 /// `url` if given, else $LCM_DEFAULT_URL, else kDefaultUrl.
 std::string effective_url(const std::string& url);
 
+/// Returns when messages can be sent to the URL's group: at once where a route is there, else when
+/// the link of a host that just starts has come up. Says on stderr that it waits, and for what.
+void wait_for_network(const std::string& url);
+
 /// What a subscriber keeps while it works on a message.
 enum class Keep {
   kNewest,  ///< the newest message; older ones are skipped and counted
@@ -52,11 +56,13 @@ class Bus {
                     });
   }
 
+  /// Empty: sent as far as this host can tell; else why not. LCM tells it only for messages below
+  /// 64 kB.
   template <class Message>
-  void publish(const std::string& channel, const Message& message) {
+  std::string publish(const std::string& channel, const Message& message) {
     std::vector<std::uint8_t> bytes(message.getEncodedSize());
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    publish_bytes(channel, bytes);
+    return publish_bytes(channel, bytes);
   }
 
   /// Runs the handler of the message that came first; waits for one up to `timeout`. False: none
@@ -84,9 +90,8 @@ class Bus {
 
   void subscribe_bytes(const std::string& channel, Keep keep,
                        std::function<void(const std::vector<std::uint8_t>&)> handler);
-  void publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
-  static void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                         Subscription* subscription);
+  std::string publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
+  static void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* subscription);
   void receive();
   Subscription* first_pending();
 

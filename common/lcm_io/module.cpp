@@ -28,6 +28,13 @@ std::string host_name() {
   return name.data();
 }
 
+/// Until signals are handled they end a module that waits here, as they should.
+const std::string& url_of_network(const std::string& name, const config::CommonOptions& options) {
+  config::configure_log(name, options.log_level);
+  wait_for_network(options.lcm_url);
+  return options.lcm_url;
+}
+
 std::string summary(const module_status_t& status) {
   std::array<char, 256> text{};
   std::snprintf(
@@ -58,8 +65,9 @@ bool stop_requested() { return g_stop_requested != 0; }
 void request_stop() { g_stop_requested = 1; }
 
 Module::Module(const std::string& name, const config::CommonOptions& options)
-    : name_(name), bus_(options.lcm_url), last_status_(std::chrono::steady_clock::now()) {
-  config::configure_log(name, options.log_level);
+    : name_(name),
+      bus_(url_of_network(name, options)),
+      last_status_(std::chrono::steady_clock::now()) {
   install_signal_handlers();
   bus_.set_on_malformed([this](const std::string& channel, const std::string& reason) {
     on_malformed(channel, reason);
@@ -122,12 +130,12 @@ void Module::send_status(double period_s) {
   status.latency_max_ms = period.latency_max_ms;
   status.num_received = counter_.num_received();
   status.num_published = counter_.num_published();
-  status.num_skipped = bus_.skipped();
-  status.num_lost = std::max<std::int64_t>(0, counter_.num_gaps() - status.num_skipped);
+  status.num_skipped = bus_.skipped() + counter_.num_late();
+  status.num_lost = std::max<std::int64_t>(0, counter_.num_gaps() - bus_.skipped());
   status.num_malformed = counter_.num_malformed();
   status.last_error = counter_.last_error();
   status.note = note_;
-  bus_.publish(kStatusChannel, status);
+  publish(kStatusChannel, status);
   if (!idle) config::log(config::LogLevel::kInfo, summary(status));
 }
 

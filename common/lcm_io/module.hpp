@@ -29,15 +29,18 @@ void request_stop();
 class Module {
  public:
   /// `name` as in the configuration file, e.g. "segmenter".
+  /// Returns when the network is there.
   Module(const std::string& name, const config::CommonOptions& options);
 
-  /// Frames (messages with a stamp): the newest only; counted, and gaps in their sequence too. What
-  /// the handler throws is logged and put in the status, and the module goes on.
+  /// Frames (messages with a stamp): the newest only, so none that others of its sensor overtook on
+  /// the way; counted, and gaps in their sequence too. What the handler throws is logged and put in
+  /// the status, and the module goes on.
   template <class Message>
   void subscribe_frames(const std::string& channel, std::function<void(const Message&)> handler) {
     bus_.subscribe<Message>(channel, Keep::kNewest,
                             [this, channel, handler = std::move(handler)](const Message& message) {
-                              counter_.received(message.stamp.sensor, message.stamp.sequence);
+                              if (!counter_.received(message.stamp.sensor, message.stamp.sequence))
+                                return;
                               guarded(channel, [&] { handler(message); });
                             });
   }
@@ -53,12 +56,14 @@ class Module {
   /// The result for a frame: counted, with its age.
   template <class Message>
   void publish_frame(const std::string& channel, const Message& message) {
-    bus_.publish(channel, message);
+    publish(channel, message);
     counter_.published(message.stamp.utime, utime_now());
   }
   template <class Message>
   void publish(const std::string& channel, const Message& message) {
-    bus_.publish(channel, message);
+    const std::string reason = bus_.publish(channel, message);
+    if (!reason.empty())
+      report_problem("messages cannot be sent: " + reason + "; check link and multicast route");
   }
 
   /// Handles messages until SIGINT or SIGTERM.

@@ -16,14 +16,33 @@ float percentile(const std::vector<float>& sorted, double share) {
 
 }  // namespace
 
-void StatusCounter::received(const std::string& sensor, std::int64_t sequence) {
+bool StatusCounter::received(const std::string& sensor, std::int64_t sequence) {
+  const auto [known, is_new] = sequences_.try_emplace(sensor, Sequence{sequence, {}});
+  Sequence& numbers = known->second;
+  if (numbers.missing.erase(sequence) > 0) {
+    --num_gaps_;
+    ++num_late_;
+    return false;
+  }
   ++num_received_;
   ++period_received_;
-  const auto last = last_sequence_.find(sensor);
-  // A number that goes back is a source that was started again, not a loss.
-  if (last != last_sequence_.end() && sequence > last->second + 1)
-    num_gaps_ += sequence - last->second - 1;
-  last_sequence_[sensor] = sequence;
+  if (sequence > numbers.last) {
+    count_gap(numbers, sequence);
+  } else if (!is_new) {
+    // A number that goes back but was not missed is a source that was started again, not a loss.
+    numbers.missing.clear();
+  }
+  numbers.last = sequence;
+  return true;
+}
+
+void StatusCounter::count_gap(Sequence& numbers, std::int64_t next) {
+  // Packets overtake one another within milliseconds; what is missing for longer is lost.
+  constexpr std::int64_t kLatestFrames = 16;
+  num_gaps_ += next - numbers.last - 1;
+  for (std::int64_t i = std::max(numbers.last + 1, next - kLatestFrames); i < next; ++i)
+    numbers.missing.insert(i);
+  numbers.missing.erase(numbers.missing.begin(), numbers.missing.lower_bound(next - kLatestFrames));
 }
 
 void StatusCounter::published(std::int64_t frame_utime, std::int64_t now_utime) {

@@ -42,6 +42,7 @@ void export_log(const Options& options) {
 }
 
 void export_live(const Options& options, const std::string& lcm_url) {
+  lcm_io::wait_for_network(lcm_url);
   lcm_io::Bus bus(lcm_url);
   bus.set_on_malformed([](const std::string& channel, const std::string& reason) {
     config::log(config::LogLevel::kWarning, channel + ": message dropped: " + reason);

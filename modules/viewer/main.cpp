@@ -162,6 +162,7 @@ void view_log(const Options& options) {
 void view_live(const Options& options, const std::string& lcm_url) {
   Output output(options);
   FrameAssembler assembler(0);
+  lcm_io::wait_for_network(lcm_url);
   lcm_io::Bus bus(lcm_url);
   bus.set_on_malformed([](const std::string& channel, const std::string& reason) {
     log(LogLevel::kWarning, channel + ": message dropped: " + reason);

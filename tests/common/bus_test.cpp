@@ -1,11 +1,15 @@
 #include "common/lcm_io/bus.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <limbcast/image_t.hpp>
 #include <limbcast/mounting_t.hpp>
 
 #include "common/config/options.hpp"
+#include "common/lcm_io/lcm_url.hpp"
+#include "tests/support/child_process.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -61,6 +65,34 @@ TEST(Bus, ReportsAForeignMessageAndGoesOn) {
   bus.set_on_malformed([&](const std::string& channel, const std::string&) { reported = channel; });
   bus.subscribe<image_t>("IMAGE", Keep::kAll, [&](const image_t& message) { got = message.width; });
   bus.publish("IMAGE", mounting_t{});
+  bus.publish("IMAGE", numbered(5));
+  while (got == 0) ASSERT_TRUE(bus.handle(kNever));
+  EXPECT_EQ(reported, "IMAGE");
+}
+
+/// Sends bytes that LCM did not make to the group of the URL.
+void send_raw(const std::string& url, const std::string& packet) {
+  const int sender = socket(AF_INET, SOCK_DGRAM, 0);
+  const unsigned char ttl = 0;
+  setsockopt(sender, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof(ttl));
+  const sockaddr_in group = parse_multicast_url(url)->socket_address();
+  EXPECT_EQ(sendto(sender, packet.data(), packet.size(), 0,
+                   reinterpret_cast<const sockaddr*>(&group), sizeof(group)),
+            static_cast<ssize_t>(packet.size()));
+  close(sender);
+}
+
+TEST(Bus, SurvivesAPacketThatEndsWithinItsChannelsName) {
+  const std::string url = test::private_lcm_url();
+  Bus bus(url);
+  std::string reported;
+  int got = 0;
+  bus.set_on_malformed([&](const std::string& channel, const std::string&) { reported = channel; });
+  bus.subscribe<image_t>("IMAGE", Keep::kAll, [&](const image_t& message) { got = message.width; });
+  const std::string magic_and_number("LC02\0\0\0\0", 8);
+  // LCM receives both into the same memory, so zeros follow the name's last letter.
+  send_raw(url, magic_and_number + std::string(64, '\0'));
+  send_raw(url, magic_and_number + "IMAGE");
   bus.publish("IMAGE", numbered(5));
   while (got == 0) ASSERT_TRUE(bus.handle(kNever));
   EXPECT_EQ(reported, "IMAGE");

@@ -26,6 +26,29 @@ TEST(StatusCounter, TakesASequenceThatGoesBackAsARestart) {
   EXPECT_EQ(counter.num_gaps(), 0);
 }
 
+TEST(StatusCounter, TakesAFrameThatWasOvertakenAsLateNotLost) {
+  StatusCounter counter;
+  EXPECT_TRUE(counter.received("front", 5));
+  EXPECT_TRUE(counter.received("front", 8));
+  EXPECT_EQ(counter.num_gaps(), 2);
+  EXPECT_FALSE(counter.received("front", 6));
+  EXPECT_TRUE(counter.received("front", 9));
+  EXPECT_EQ(counter.num_gaps(), 1);
+  EXPECT_EQ(counter.num_late(), 1);
+  EXPECT_EQ(counter.num_received(), 3);
+}
+
+TEST(StatusCounter, TakesNumbersOfARestartedSourceAsNewAlthoughOnceMissed) {
+  StatusCounter counter;
+  counter.received("front", 0);
+  counter.received("front", 3);
+  EXPECT_TRUE(counter.received("front", 0));
+  EXPECT_TRUE(counter.received("front", 1));
+  EXPECT_TRUE(counter.received("front", 2));
+  EXPECT_EQ(counter.num_gaps(), 2);
+  EXPECT_EQ(counter.num_late(), 0);
+}
+
 TEST(StatusCounter, TellsRatesAndPercentilesOfThePeriod) {
   StatusCounter counter;
   for (int i = 1; i <= 100; ++i) {
