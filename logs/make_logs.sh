@@ -50,11 +50,11 @@ frames() {
 
 # shellcheck disable=SC2046  # a list of words is wanted
 make_log demo \
-  $(frames pointing pointing60 58 2 3 15 4 16 11 24 33 38) \
-  $(frames general general60 1 3 6 15 44 2) \
+  $(frames pointing pointing60 58 2 3 15 34 16 11 24 33 38) \
+  $(frames general general60 1 3 6 15 44 22) \
   $(frames multi multi12 0 4) \
   $(frames pointing pointing60 46 54 42 43 0 1 12 25 27 53) \
-  $(frames general general60 5 29 33 46 58 0) \
+  $(frames general general60 5 29 23 46 28 0) \
   $(frames multi multi12 9 11) \
   $(frames sequence seq5s 30 31 32 33 34 35 36 37 38 39 40 41)
 # shellcheck disable=SC2046

@@ -6,6 +6,7 @@
 
 #include "common/lcm_io/pose_log.hpp"
 #include "common/pose_json/pose_lines.hpp"
+#include "tests/replay/log_tools.hpp"
 #include "tests/replay/pose_differences.hpp"
 #include "tests/support/child_process.hpp"
 
@@ -47,6 +48,14 @@ TEST_P(ReplayOfALog, GivesTheRecordedPosesAndTheSameBytesOnAnyNumberOfThreads) {
   for (const int threads : {2, 4}) {
     // No EXPECT_EQ: it would print megabytes.
     EXPECT_TRUE(bytes_of(replay_on(threads)) == bytes) << threads << " threads give another log";
+  }
+}
+
+TEST_P(ReplayOfALog, HasImagesAndCloudsThatAreSmallEnoughForTheNetwork) {
+  constexpr std::size_t kMostBytes = 250'000;  // a lost fragment loses the message
+  for (const lcm_io::LogEvent& event : events_of(replay_on(2))) {
+    if (event.channel != "STEREO_IMAGES" && event.channel != "POINT_CLOUD") continue;
+    EXPECT_LE(event.data.size(), kMostBytes) << event.channel << " at " << event.utime;
   }
 }
 
