@@ -53,7 +53,7 @@ std::size_t bucket_of(float way_m) { return static_cast<std::size_t>(way_m / kBu
 
 JointGrowth::JointGrowth(const Lattice& lattice, std::vector<HeadCandidate> heads,
                          const JointGrowingParams& params, const ReachParams& reach)
-    : lattice_(lattice),
+    : lattice_(&lattice),
       heads_(std::move(heads)),
       dropped_(heads_.size(), false),
       changed_(heads_.size(), false),
@@ -91,9 +91,9 @@ std::vector<std::uint32_t> JointGrowth::free_points(std::int16_t head) {
 /// Puts every point that may lead to a free one into the queue again.
 void JointGrowth::queue_around(const std::vector<std::uint32_t>& freed) {
   for (const std::uint32_t i : freed) {
-    const int u = static_cast<int>(i) % lattice_.width, v = static_cast<int>(i) / lattice_.width;
+    const int u = static_cast<int>(i) % lattice_->width, v = static_cast<int>(i) / lattice_->width;
     for (const auto& [du, dv] : kNeighbors) {
-      const auto n = lattice_.find(u + du, v + dv);
+      const auto n = lattice_->find(u + du, v + dv);
       if (!n || labels_[*n] == kNobody) continue;
       changed_[static_cast<std::size_t>(labels_[*n])] = true;
       queue(*n);
@@ -106,14 +106,15 @@ void JointGrowth::queue_around(const std::vector<std::uint32_t>& freed) {
 
 void JointGrowth::start(std::int16_t head) {
   const HeadCandidate& candidate = heads_[static_cast<std::size_t>(head)];
-  const float depth_m = lattice_.depth_m[lattice_.index(candidate.u, candidate.v)];
+  const float depth_m = lattice_->depth_m[lattice_->index(candidate.u, candidate.v)];
   const float radius_m = params_.head_radius_m;
-  const int radius_px = std::max(1, static_cast<int>(radius_m * lattice_.focal_px / depth_m));
+  const int radius_px = std::max(1, static_cast<int>(radius_m * lattice_->focal_px / depth_m));
   for (int v = candidate.v - radius_px; v <= candidate.v + radius_px; ++v) {
     for (int u = candidate.u - radius_px; u <= candidate.u + radius_px; ++u) {
-      const auto i = lattice_.find(u, v);
+      const auto i = lattice_->find(u, v);
       if (!i || way_m_[*i] == 0.0F) continue;
-      if ((lattice_.level_m[*i] - candidate.center_m).squaredNorm() > radius_m * radius_m) continue;
+      if ((lattice_->level_m[*i] - candidate.center_m).squaredNorm() > radius_m * radius_m)
+        continue;
       way_m_[*i] = 0.0F;
       labels_[*i] = head;
       changed_[static_cast<std::size_t>(head)] = true;
@@ -138,17 +139,17 @@ void JointGrowth::grow() {
 }
 
 void JointGrowth::visit(std::uint32_t i) {
-  const int u = static_cast<int>(i) % lattice_.width, v = static_cast<int>(i) / lattice_.width;
+  const int u = static_cast<int>(i) % lattice_->width, v = static_cast<int>(i) / lattice_->width;
   step_to_neighbors(i, u, v);
   step_behind(i, u, v);
 }
 
 void JointGrowth::step_to_neighbors(std::uint32_t i, int u, int v) {
-  const float max_step_m = params_.longest_step_m(lattice_.depth_m[i]);
+  const float max_step_m = params_.longest_step_m(lattice_->depth_m[i]);
   for (const auto& [du, dv] : kNeighbors) {
-    const auto n = lattice_.find(u + du, v + dv);
+    const auto n = lattice_->find(u + du, v + dv);
     if (!n) continue;
-    const Eigen::Vector3f step_m = lattice_.level_m[*n] - lattice_.level_m[i];
+    const Eigen::Vector3f step_m = lattice_->level_m[*n] - lattice_->level_m[i];
     const float squared = step_m.squaredNorm();
     if (squared > max_step_m * max_step_m) continue;
     relax(i, *n,
@@ -158,31 +159,31 @@ void JointGrowth::step_to_neighbors(std::uint32_t i, int u, int v) {
 }
 
 void JointGrowth::step_behind(std::uint32_t i, int u, int v) {
-  const float z_m = lattice_.depth_m[i];
+  const float z_m = lattice_->depth_m[i];
   const float step_m = params_.longest_step_m(z_m);
   for (const auto& [du, dv] : kDirections) {
-    const auto next = lattice_.find(u + du, v + dv);
-    if (next && lattice_.depth_m[*next] >= z_m - step_m) continue;
+    const auto next = lattice_->find(u + du, v + dv);
+    if (next && lattice_->depth_m[*next] >= z_m - step_m) continue;
     const auto n = find_behind(i, du, dv);
     if (!n) continue;
     bridges_.push_back({i, *n});
     relax(i, *n,
-          way_m_[i] + params_.gap_cost * (lattice_.level_m[*n] - lattice_.level_m[i]).norm());
+          way_m_[i] + params_.gap_cost * (lattice_->level_m[*n] - lattice_->level_m[i]).norm());
   }
 }
 
 /// The point where the surface at point i goes on, seen from it in one direction of the image: the
 /// first at about its depth, after something nearer.
 std::optional<std::uint32_t> JointGrowth::find_behind(std::uint32_t i, int du, int dv) {
-  const int u = static_cast<int>(i) % lattice_.width, v = static_cast<int>(i) / lattice_.width;
-  const float z_m = lattice_.depth_m[i], step_m = params_.longest_step_m(z_m);
+  const int u = static_cast<int>(i) % lattice_->width, v = static_cast<int>(i) / lattice_->width;
+  const float z_m = lattice_->depth_m[i], step_m = params_.longest_step_m(z_m);
   const float px_per_step = std::hypot(static_cast<float>(du), static_cast<float>(dv));
-  const int steps = static_cast<int>(params_.max_gap_m * lattice_.focal_px / (z_m * px_per_step));
+  const int steps = static_cast<int>(params_.max_gap_m * lattice_->focal_px / (z_m * px_per_step));
   float before_m = z_m;
   for (int k = 1; k <= steps; ++k) {
-    const auto n = lattice_.find(u + k * du, v + k * dv);
+    const auto n = lattice_->find(u + k * du, v + k * dv);
     if (!n) continue;
-    const float depth_m = lattice_.depth_m[*n];
+    const float depth_m = lattice_->depth_m[*n];
     // What hides ends with a jump: a table that reaches back to the body does not.
     const bool uncovers = depth_m > before_m + step_m;
     before_m = depth_m;
@@ -195,7 +196,7 @@ std::optional<std::uint32_t> JointGrowth::find_behind(std::uint32_t i, int du, i
 
 /// Whether the connected surface of a point is no wall, and more than noise.
 bool JointGrowth::may_be_a_limb(std::uint32_t i) {
-  if (!surfaces_) surfaces_ = find_surfaces(lattice_, params_);
+  if (!surfaces_) surfaces_ = find_surfaces(*lattice_, params_);
   const std::int32_t k = surfaces_->of_point[i];
   if (k < 0) return false;
   const Surface& surface = surfaces_->all[static_cast<std::size_t>(k)];
@@ -205,7 +206,7 @@ bool JointGrowth::may_be_a_limb(std::uint32_t i) {
 
 void JointGrowth::relax(std::uint32_t from, std::uint32_t to, float way_m) {
   if (way_m >= way_m_[to] - kSameWay_m || way_m > params_.max_way_m ||
-      !reachable(lattice_.level_m[to], labels_[from]))
+      !reachable(lattice_->level_m[to], labels_[from]))
     return;
   way_m_[to] = way_m;
   labels_[to] = labels_[from];
@@ -222,7 +223,7 @@ bool JointGrowth::reachable(const Eigen::Vector3f& point_m, std::int16_t head) c
   if (point_m.z() > center_m.z() + reach_.above_m || point_m.z() < center_m.z() - reach_.below_m)
     return false;
   float radius_m = reach_.radius_m;
-  if (lattice_.frame.ground_known) {
+  if (lattice_->frame.ground_known) {
     if (point_m.z() < params_.ground_cut_m) return false;
     if (point_m.z() < params_.shin_height * center_m.z())
       radius_m = params_.shin_radius_m;

@@ -50,7 +50,7 @@ class JointGrowth {
   std::vector<std::uint32_t> free_points(std::int16_t head);
   void queue_around(const std::vector<std::uint32_t>& freed);
 
-  const Lattice& lattice_;
+  const Lattice* lattice_;
   std::vector<HeadCandidate> heads_;
   std::vector<bool> dropped_, changed_;
   JointGrowingParams params_;

@@ -115,6 +115,10 @@ struct ClassifierParams {
   float min_skin_head_odds = 0.0F;
   /// Lowest log odds, by its cluster, of a person. Higher: fewer false people, more missed.
   float min_person_odds = 0.0F;
+  /// Seeds nearer than this may be on one person's head and body [m]: head to elbow or breast.
+  float rival_m = 0.60F;
+  /// Log odds against two people whose heads are that near.
+  float rival_odds = 1.0F;
   /// Candidates nearer than this to a likelier one are parts of the same head or its shoulders [m].
   float separation_m = 0.28F;
 };

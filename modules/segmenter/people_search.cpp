@@ -11,6 +11,9 @@
 namespace limbcast::segmenter {
 namespace {
 
+/// A seed most of whose points another one takes over is on the same person.
+constexpr float kSamePersonShare = 0.5F;
+
 float probability(float odds) { return 1.0F / (1.0F + std::exp(-odds)); }
 
 /// What became of the heads while they grow together.
@@ -18,12 +21,33 @@ class Trial {
  public:
   Trial(const Lattice& lattice, std::vector<HeadCandidate> heads, const HeadClassifier& classifier,
         const Params& params)
-      : lattice_(lattice),
-        classifier_(classifier),
-        params_(params),
+      : lattice_(&lattice),
+        classifier_(&classifier),
+        params_(&params),
         growth_(lattice, std::move(heads), params.joint, params.reach),
         verdicts_(growth_.heads().size()) {
     for (std::size_t k = 0; k < verdicts_.size(); ++k) judge(static_cast<std::int16_t>(k));
+  }
+
+  /// Gives up a seed on the body of a person whose head is a seed too: where two are near, and the
+  /// one that looks more like a head makes about as likely a person alone as both do. Nothing where
+  /// no two are one person's.
+  std::optional<RejectedHead> drop_rival() {
+    std::optional<Trial> best;
+    std::optional<RejectedHead> rival;
+    float best_gain = -params_->classifier.rival_odds;
+    for (const auto& [head, other] : rivals()) {
+      Trial without = *this;
+      const float taken = without.give(other, head);
+      const float gain = without.value(head) - value(head) - value(other);
+      if (taken <= kSamePersonShare || gain <= best_gain) continue;
+      best_gain = gain;
+      rival = RejectedHead{growth_.heads()[other],
+                           {SegmentFilter::kSamePerson, taken, kSamePersonShare}};
+      best = std::move(without);
+    }
+    if (best) *this = std::move(*best);
+    return rival;
   }
 
   /// Gives up the least likely head that is no person's; nothing where all are.
@@ -59,23 +83,60 @@ class Trial {
     std::optional<Rejection> rejection;
   };
 
+  /// Pairs of seeds that may be one person's, the one that looks more like a head first.
+  std::vector<std::pair<std::size_t, std::size_t>> rivals() const {
+    const std::vector<HeadCandidate>& heads = growth_.heads();
+    std::vector<std::size_t> left;
+    for (std::size_t k = 0; k < heads.size(); ++k) {
+      if (!growth_.dropped(static_cast<std::int16_t>(k))) left.push_back(k);
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (const std::size_t a : left) {
+      for (const std::size_t b : left) {
+        const bool ordered =
+            heads[a].odds > heads[b].odds || (heads[a].odds == heads[b].odds && a < b);
+        if (ordered && (heads[a].center_m - heads[b].center_m).norm() < params_->classifier.rival_m)
+          pairs.emplace_back(a, b);
+      }
+    }
+    return pairs;
+  }
+
+  /// How likely a head is a person's, beyond an even chance; zero for one that will be given up.
+  float value(std::size_t k) const {
+    return verdicts_[k].rejection ? 0.0F : std::max(0.0F, verdicts_[k].odds);
+  }
+
+  /// Drops `from` and returns the share of its points that `to` took over.
+  float give(std::size_t from, std::size_t to) {
+    const std::vector<std::int16_t> before = growth_.labels();
+    for (const std::int16_t k : growth_.drop(static_cast<std::int16_t>(from))) judge(k);
+    int all = 0, taken = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (before[i] != static_cast<std::int16_t>(from)) continue;
+      ++all;
+      taken += growth_.labels()[i] == static_cast<std::int16_t>(to) ? 1 : 0;
+    }
+    return all > 0 ? static_cast<float>(taken) / static_cast<float>(all) : 0.0F;
+  }
+
   void judge(std::int16_t k) {
     const HeadCandidate& head = growth_.heads()[static_cast<std::size_t>(k)];
     const ClusterFigures figures =
-        measure_cluster(lattice_, head, growth_.labels(), k, params_.joint, params_.reach);
+        measure_cluster(*lattice_, head, growth_.labels(), k, params_->joint, params_->reach);
     Verdict& verdict = verdicts_[static_cast<std::size_t>(k)];
-    verdict.odds = classifier_.person_odds(lattice_, head, figures);
-    verdict.rejection = check_validity(figures, params_.filters);
-    const float min_odds = params_.classifier.min_person_odds;
+    verdict.odds = classifier_->person_odds(*lattice_, head, figures);
+    verdict.rejection = check_validity(figures, params_->filters);
+    const float min_odds = params_->classifier.min_person_odds;
     if (!verdict.rejection && verdict.odds < min_odds) {
       verdict.rejection = Rejection{SegmentFilter::kNotHeadShaped, probability(verdict.odds),
                                     probability(min_odds)};
     }
   }
 
-  const Lattice& lattice_;
-  const HeadClassifier& classifier_;
-  const Params& params_;
+  const Lattice* lattice_;
+  const HeadClassifier* classifier_;
+  const Params* params_;
   JointGrowth growth_;
   std::vector<Verdict> verdicts_;
 };
@@ -118,6 +179,7 @@ FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candi
   std::vector<HeadCandidate> likely =
       likely_heads(lattice, std::move(candidates), classifier, params.classifier, found.rejected);
   Trial trial(lattice, std::move(likely), classifier, params);
+  while (const auto rejected = trial.drop_rival()) found.rejected.push_back(*rejected);
   while (const auto rejected = trial.drop_weakest()) found.rejected.push_back(*rejected);
   trial.name_people(found);
   return found;
