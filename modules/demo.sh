@@ -39,7 +39,7 @@ echo "all there"
 step 2 "Build"
 build_log=$(mktemp)
 cmake --preset release >"$build_log" 2>&1 || { tail -n 30 "$build_log" >&2; fail "cmake failed, see above"; }
-cmake --build --preset release --target limbcast_programs
+cmake --build --preset release --target limbcast_demo_programs
 rm -f "$build_log"
 
 # What feeds the chain: the camera process of this kind of recording.
@@ -112,3 +112,4 @@ step 5 "Accuracy against the truth in the recording"
 echo
 echo "Log:      $run_log  (lcm-logplayer $run_log)"
 echo "Pictures: $output/pictures"
+echo "All other programs (replay, tracker, simulate ...): cmake --build --preset release"

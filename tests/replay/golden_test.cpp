@@ -27,7 +27,7 @@ std::vector<BodyPoses> poses_of(const std::string& log) {
 class ReplayOfALog : public ::testing::TestWithParam<const char*> {
  protected:
   std::string replay_on(int threads) const {
-    const std::string out = folder_ + "/" + std::to_string(threads) + ".log";
+    std::string out = folder_ + "/" + std::to_string(threads) + ".log";
     const auto result =
         test::run({test::program("limbcast-replay"),
                    test::repository_file(std::string("logs/") + GetParam() + ".log"), out,
