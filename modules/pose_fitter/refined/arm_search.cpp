@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <opencv2/core/fast_math.hpp>
+#include <utility>
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -34,6 +37,30 @@ std::vector<Vec3> sphere(int count) {
     directions.emplace_back(r * std::cos(i * kGoldenAngle), r * std::sin(i * kGoldenAngle), z);
   }
   return directions;
+}
+
+bool same_posture(const ArmPosture& a, const ArmPosture& b) {
+  return (a.wrist - b.wrist).squaredNorm() < kSamePostureM * kSamePostureM &&
+         (a.elbow - b.elbow).squaredNorm() < kSamePostureM * kSamePostureM;
+}
+
+/// The best `count` that differ, best first; of equal costs the one found first. Thousands are
+/// found and few asked for: a heap brings up only as many as are looked at.
+std::vector<ArmPosture> best_different(const std::vector<ArmPosture>& found, int count) {
+  std::vector<std::pair<Real, int>> heap;
+  heap.reserve(found.size());
+  for (const ArmPosture& posture : found)
+    heap.emplace_back(posture.cost, static_cast<int>(heap.size()));
+  std::make_heap(heap.begin(), heap.end(), std::greater<>());
+  std::vector<ArmPosture> best;
+  while (!heap.empty() && static_cast<int>(best.size()) < count) {
+    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+    const ArmPosture& posture = found[heap.back().second];
+    heap.pop_back();
+    const auto is_same = [&](const ArmPosture& other) { return same_posture(posture, other); };
+    if (std::none_of(best.begin(), best.end(), is_same)) best.push_back(posture);
+  }
+  return best;
 }
 
 }  // namespace
@@ -96,8 +123,9 @@ void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {
 Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
   if (center.z() < 0.3) return kImpossible;
   const PinholeCamera& camera = observation_.camera;
-  const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
-  const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
+  const Real inverse_z = 1.0 / center.z();
+  const int u = cvRound(camera.fx * center.x() * inverse_z + camera.cx);
+  const int v = cvRound(camera.fy * center.y() * inverse_z + camera.cy);
   if (!observation_.in_sensor_image(u, v)) return kOutsideImage;
   if (!observation_.inside(u, v)) return kImpossible;
   const std::size_t pixel = observation_.at(u, v);
@@ -208,19 +236,7 @@ std::vector<ArmPosture> ArmSearch::postures(const BodyState& body, int side, uns
   std::vector<ArmPosture> found;
   by_directions(arm, found);
   by_reaching(arm, found);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const ArmPosture& a, const ArmPosture& b) { return a.cost < b.cost; });
-  std::vector<ArmPosture> best;
-  for (const ArmPosture& posture : found) {
-    const bool known = std::any_of(best.begin(), best.end(), [&](const ArmPosture& other) {
-      return (posture.wrist - other.wrist).norm() < kSamePostureM &&
-             (posture.elbow - other.elbow).norm() < kSamePostureM;
-    });
-    if (known) continue;
-    best.push_back(posture);
-    if (static_cast<int>(best.size()) >= count) break;
-  }
-  return best;
+  return best_different(found, count);
 }
 
 void set_arm(BodyState& body, int side, const ArmPosture& posture) {

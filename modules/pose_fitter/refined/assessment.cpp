@@ -12,11 +12,14 @@ constexpr Real kDegree = M_PI / 180.0;
 
 /// Probabilities are logistic regressions on simulated people and the tuning half of the rendered
 /// ones; README.md has the figures. Evidence beyond this many units of cost adds nothing.
-constexpr Real kMostEvidence = 30.0;
+constexpr Real kMostEvidence = 30.0, kMostGap = 15.0;
 /// A joint less sure than this is left out.
 constexpr Real kLeastJointConfidence = 0.08;
 /// A direction less sure than this is not told.
-constexpr Real kLeastPointingConfidence = 0.65;
+constexpr Real kLeastPointingConfidence = 0.8;
+/// Arms that point to the ground before one's feet are raised by 60 degrees and more; up to 35 they
+/// hang.
+constexpr PointingParams kPointingRule{/*max_elbow_bend_deg=*/45.0, /*min_raise_deg=*/45.0};
 /// A body less sure than this is no person.
 constexpr Real kLeastPersonConfidence = 0.3;
 /// Posterior spreads are too small, as neighbouring points share their errors: measured error
@@ -40,21 +43,24 @@ Real joint_confidence(const Evidence& evidence, int joint) {
 }
 
 /// That the arm axis is right: a straight arm in sight, in a body that fits well, without a rival.
-Real pointing_confidence(const Evidence& evidence, const ArmEvidence& arm) {
+Real pointing_confidence(const BodyState& body, const Evidence& evidence, const ArmEvidence& arm) {
   const Real sigma_deg = std::max(0.1, arm.sigma_rad / kDegree);
-  return logistic(1.65 + 1.23 * strength(arm.gap) + 0.68 * strength(arm.support) -
-                  0.50 * std::log(sigma_deg) - 2.01 * arm.bend_rad / (45.0 * kDegree) -
-                  0.98 * std::log(std::max(0.1, evidence.prior_cost)) -
-                  3.19 * std::min(1.0, evidence.surface_cost / evidence.weight));
+  // The cost is per area of skin, of which a child has less.
+  const Real size = kReferenceStatureM / body.stature_m();
+  return logistic(5.17 + 0.29 * std::clamp(arm.gap * size * size, 0.0, kMostGap) +
+                  0.44 * strength(arm.support) - 1.08 * std::log(sigma_deg) -
+                  4.38 * arm.bend_rad / (45.0 * kDegree) -
+                  1.12 * std::log(std::max(0.1, evidence.prior_cost)) -
+                  4.37 * std::min(1.0, evidence.surface_cost / evidence.weight));
 }
 
 /// Furniture fits a body too, but in an odd posture, as well from the back, and without limbs of
 /// its own.
 Real person_confidence(const Evidence& evidence) {
   const Real arms = strength(evidence.arms[0].support) + strength(evidence.arms[1].support);
-  return logistic(7.14 - 2.62 * std::log(std::max(0.1, evidence.prior_cost)) -
-                  1.34 * std::log(evidence.weight) + 0.90 * strength(evidence.flip_gap) +
-                  0.70 * arms + 5.30 * evidence.legs_share);
+  return logistic(6.74 - 3.03 * std::log(std::max(0.1, evidence.prior_cost)) -
+                  0.90 * std::log(evidence.weight) + 1.18 * strength(evidence.flip_gap) +
+                  0.52 * arms + 4.13 * evidence.legs_share);
 }
 
 }  // namespace
@@ -69,11 +75,14 @@ std::optional<BodyPose> assess(const BodyState& body, const Evidence& evidence,
     joint.sigma_m = static_cast<float>(kSigmaScale * evidence.sigma_m[i]);
     joint.valid = joint.confidence >= kLeastJointConfidence;
   }
-  for (Pointing& pointing : find_pointing(pose, (-observation.up).cast<float>())) {
+  for (Pointing& pointing : find_pointing(pose, (-observation.up).cast<float>(), kPointingRule)) {
     const ArmEvidence& arm = evidence.arms[pointing.side == Side::kLeft ? 0 : 1];
-    pointing.confidence = static_cast<float>(pointing_confidence(evidence, arm));
+    pointing.confidence = static_cast<float>(pointing_confidence(body, evidence, arm));
     pointing.sigma_rad = static_cast<float>(kSigmaScale * arm.sigma_rad);
-    if (pointing.confidence >= kLeastPointingConfidence) pose.pointing.push_back(pointing);
+    // Beside an unsure arm that is straighter and more raised, the other is not the one that
+    // points.
+    if (pointing.confidence < kLeastPointingConfidence) break;
+    pose.pointing.push_back(pointing);
   }
   pose.scale = static_cast<float>(body.stature_m() / kReferenceStatureM);
   pose.confidence = static_cast<float>(person_confidence(evidence));

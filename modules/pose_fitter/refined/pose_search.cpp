@@ -9,6 +9,9 @@ namespace {
 
 /// Steps of the solver at each stage: most of the gain comes in the first ones.
 constexpr int kTrunkIterations = 8, kArmIterations = 6, kCombinedIterations = 6;
+constexpr int kFirstArmIterations = 2;
+/// Arms that are fitted further after the first steps.
+constexpr std::size_t kArmsContinued = 6;
 constexpr int kFinalIterations = 15, kFlipIterations = 12, kLegIterations = 8, kMoveIterations = 10;
 /// A round of moves that wins less than this share is the last.
 constexpr Real kLeastRoundGain = 0.01;
@@ -109,9 +112,14 @@ std::vector<BodyState> PoseSearch::fitted_arms(const BodyState& body, int side, 
   for (const ArmPosture& posture : arms_.postures(body, side, explained, postures)) {
     PoseCandidate pose{0.0, body};
     set_arm(pose.body, side, posture);
-    pose.cost = solver_.minimize(pose.body, stage, kArmIterations);
+    pose.cost = solver_.minimize(pose.body, stage, kFirstArmIterations);
     fitted.push_back(pose);
   }
+  // Most are known to be bad after the first steps.
+  sort_by_cost(fitted);
+  if (fitted.size() > kArmsContinued) fitted.resize(kArmsContinued);
+  for (PoseCandidate& pose : fitted)
+    pose.cost = solver_.minimize(pose.body, stage, kArmIterations - kFirstArmIterations);
   sort_by_cost(fitted);
   std::vector<BodyState> best;
   for (const PoseCandidate& pose : fitted) {

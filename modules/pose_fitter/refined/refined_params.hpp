@@ -39,8 +39,8 @@ struct RefinedParams {
   int arms_combined = 2;
   /// Arms in other directions that the found one is compared with.
   int rival_arms = 6;
-  /// Directions on the sphere for the upper arm and the forearm: 90 are 22 degrees apart.
-  int arm_directions = 90;
+  /// Directions on the sphere for the upper arm and the forearm: 60 are 27 degrees apart.
+  int arm_directions = 60;
 
   /// Mean stature [m] and spread of its logarithm: NHANES 2015-2018 adults, both sexes.
   double mean_stature_m = 1.70;
