@@ -118,8 +118,11 @@ Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
 }
 
 cv::Mat Rectifier::resample(const cv::Mat& image, const Maps& maps) const {
-  cv::Mat result = image;
-  if (!maps.xy.empty()) cv::remap(image, result, maps.xy, maps.fraction, cv::INTER_LINEAR);
+  cv::Mat result;
+  if (maps.xy.empty())
+    result = image;
+  else  // into memory of its own: a copy of `image` shares the caller's pixels
+    cv::remap(image, result, maps.xy, maps.fraction, cv::INTER_LINEAR);
   const cv::Size size(camera_.width, camera_.height);
   if (result.size() == size) return result;
   cv::Mat smaller;
