@@ -1,16 +1,33 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "modules/segmenter/lattice.hpp"
 
 namespace limbcast::segmenter {
 
-/// Columns and rows of the depths around a head that the classifier looks at; 6 cm apart, from 0.36
-/// m over the head's centre to 0.66 m under it.
-inline constexpr int kPatchColumns = 15, kPatchRows = 18;
-/// Two planes (depth against the head's, and whether it was measured) and the head's height.
-inline constexpr int kPatchSize = 2 * kPatchColumns * kPatchRows + 2;
+/// One grid of depths around a head that the classifier looks at.
+struct PatchGrid {
+  int columns = 0, rows = 0;
+  float spacing_m = 0.0F;      ///< between two samples
+  float top_m = 0.0F;          ///< first row over the head's centre
+  float depth_scale_m = 0.0F;  ///< depth against the head's that counts one; more is no more
+};
+
+/// From fine to coarse: the head's own relief; head, shoulders and hands beside it; the whole
+/// person with the free space around.
+inline constexpr std::array<PatchGrid, 3> kPatchGrids = {
+    {{11, 13, 0.03F, 0.18F, 0.15F}, {13, 14, 0.075F, 0.375F, 0.3F}, {9, 13, 0.15F, 0.60F, 0.8F}}};
+
+constexpr int count_patch_samples() {
+  int samples = 0;
+  for (const PatchGrid& grid : kPatchGrids) samples += grid.columns * grid.rows;
+  return samples;
+}
+
+/// Two values a sample; the head's height, whether that is known, its distance and its noise.
+inline constexpr int kPatchSize = 2 * count_patch_samples() + 4;
 
 /// Where and how a patch is taken; what differs from the default serves training.
 struct PatchPlace {
@@ -21,8 +38,8 @@ struct PatchPlace {
   bool mirrored = false;
 };
 
-/// Depths around a candidate: (depth - head's) / 0.3 m within -1 to 1, then 1 where measured, else
-/// 0; then the height over the ground and whether it is known.
+/// Depths around a candidate, grid by grid: (depth - head's) / scale within -1 to 1 or 0 where
+/// nothing was measured, then 1 where measured, 0 in a hole, -1 outside the image.
 std::vector<float> sample_patch(const Lattice& lattice, const PatchPlace& place);
 
 }  // namespace limbcast::segmenter

@@ -134,6 +134,7 @@ cv::Mat1f score_image(const Lattice& lattice, const HeadShapeParams& params) {
       const std::size_t i = lattice.index(u, v);
       const float z_m = lattice.depth_m[i];
       if (z_m < params.min_depth_m || z_m > params.max_depth_m) continue;
+      if (lattice.depth_noise.sigma_m(z_m) > params.max_noise_m) continue;
       const float height_m = lattice.level_m[i].z();
       if (lattice.frame.ground_known &&
           (height_m < params.min_height_m || height_m > params.max_height_m))

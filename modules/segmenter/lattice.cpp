@@ -25,6 +25,7 @@ LevelFrame make_level_frame(const Gravity& gravity, const std::optional<Ground>&
 Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step) {
   Lattice lattice;
   lattice.frame = frame;
+  lattice.depth_noise = cloud.stamp.depth_noise;
   lattice.width = (cloud.width + step - 1) / step;
   lattice.height = (cloud.height + step - 1) / step;
   lattice.focal_px = static_cast<float>(cloud.camera->fx) / static_cast<float>(step);

@@ -42,6 +42,7 @@ struct Lattice {
   std::vector<Eigen::Vector3f> level_m;  ///< LevelFrame; (0, 0, 0) at holes
   std::vector<std::uint32_t> source;     ///< index of the cloud's point, meaningless at holes
   LevelFrame frame;
+  DepthNoise depth_noise;
 
   std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +

@@ -3,32 +3,26 @@
 namespace limbcast::segmenter {
 
 float Network::log_odds(const std::vector<float>& input) const {
-  const auto stride = static_cast<std::size_t>(inputs) + 1;
-  float sum = output_weights[static_cast<std::size_t>(hidden)];
-  for (std::size_t h = 0; h < static_cast<std::size_t>(hidden); ++h) {
-    const float* row = hidden_weights.data() + h * stride;
-    float activation = row[inputs];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(inputs); ++i)
-      activation += row[i] * input[i];
-    sum += output_weights[h] * soft_sign(activation);
-  }
+  const Eigen::Map<const Eigen::VectorXf> x(input.data(), static_cast<Eigen::Index>(input.size()));
+  const Eigen::VectorXf activation = hidden_weights * x + hidden_bias;
+  float sum = output_bias;
+  for (Eigen::Index h = 0; h < activation.size(); ++h)
+    sum += output_weights[h] * soft_sign(activation[h]);
   return sum;
 }
 
 Network unpack(const StoredNetwork& stored) {
   Network network;
-  network.inputs = stored.inputs;
-  network.hidden = stored.hidden;
-  const auto stride = static_cast<std::size_t>(stored.inputs) + 1;
-  const auto hidden = static_cast<std::size_t>(stored.hidden);
-  network.hidden_weights.reserve(hidden * stride);
-  for (std::size_t h = 0; h < hidden; ++h) {
-    for (std::size_t i = 0; i < stride; ++i) {
-      network.hidden_weights.push_back(stored.row_scales[h] *
-                                       static_cast<float>(stored.row_weights[h * stride + i]));
-    }
+  network.hidden_weights.resize(stored.hidden, stored.inputs);
+  network.hidden_bias.resize(stored.hidden);
+  const std::int8_t* weight = stored.row_weights;
+  for (int h = 0; h < stored.hidden; ++h) {
+    for (int i = 0; i < stored.inputs; ++i)
+      network.hidden_weights(h, i) = stored.row_scales[h] * static_cast<float>(*weight++);
+    network.hidden_bias[h] = stored.hidden_bias[h];
   }
-  network.output_weights.assign(stored.output_weights, stored.output_weights + hidden + 1);
+  network.output_weights = Eigen::Map<const Eigen::VectorXf>(stored.output_weights, stored.hidden);
+  network.output_bias = stored.output_bias;
   return network;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -7,11 +8,13 @@ namespace limbcast::segmenter {
 
 /// A network with one hidden layer that tells how likely its input is what it was trained for.
 struct Network {
-  int inputs = 0, hidden = 0;
-  std::vector<float> hidden_weights;  ///< hidden rows of inputs + 1 (bias last)
-  std::vector<float> output_weights;  ///< hidden + 1 (bias last)
+  using Weights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// Log odds. `input` must hold `inputs` values.
+  Weights hidden_weights;  ///< a row for each hidden unit, a column for each input
+  Eigen::VectorXf hidden_bias, output_weights;
+  float output_bias = 0.0F;
+
+  /// Log odds. `input` must hold one value for each column of hidden_weights.
   float log_odds(const std::vector<float>& input) const;
 };
 
@@ -19,8 +22,10 @@ struct Network {
 struct StoredNetwork {
   int inputs, hidden;
   const float* row_scales;         ///< hidden
-  const std::int8_t* row_weights;  ///< hidden * (inputs + 1)
-  const float* output_weights;     ///< hidden + 1
+  const std::int8_t* row_weights;  ///< hidden * inputs
+  const float* hidden_bias;        ///< hidden
+  const float* output_weights;     ///< hidden
+  float output_bias;
 };
 
 Network unpack(const StoredNetwork& stored);

@@ -83,6 +83,7 @@ void fill_gaps(int radius_px, Lattice& panorama) {
 Lattice render_panorama(const Cloud& cloud, const LevelFrame& frame, const PanoramaParams& params) {
   Lattice panorama;
   panorama.frame = frame;
+  panorama.depth_noise = cloud.stamp.depth_noise;
   panorama.wraps_around = true;
   panorama.width = static_cast<int>(std::lround(2.0F * kPi * params.focal_px));
   panorama.focal_px = static_cast<float>(panorama.width) / (2.0F * kPi);

@@ -98,20 +98,26 @@ struct HeadShapeParams {
   float min_depth_m = 0.5F, max_depth_m = 8.0F;
   /// Height of a head's centre over the ground [m]: a sitting child, a tall person.
   float min_height_m = 0.50F, max_height_m = 2.15F;
-  /// Lowest score of a candidate; the score runs from 0 to 2.48.
-  float min_score = 1.7F;
-  /// Candidates nearer than this to a better one are the same head [m].
-  float separation_m = 0.22F;
+  /// Largest noise of the depth there [m]: beyond, a bare wall has relief like a head's.
+  float max_noise_m = 0.07F;
+  /// Lowest score of a candidate; the score runs from 0 to 2.48. Low: the classifier tells more.
+  float min_score = 1.5F;
+  /// Candidates nearer than this to a better one are left out [m]. A hand beside a head must not
+  /// hide it.
+  float separation_m = 0.14F;
   /// Strongest candidates kept in a frame.
-  int max_candidates = 40;
+  int max_candidates = 80;
 };
 
 /// The trained classifiers (head_classifier.hpp).
 struct ClassifierParams {
   /// Lowest log odds, by the depths around it, of a candidate that is grown. Low: the cluster tells
   /// more.
-  float min_head_odds = -3.0F;
-  /// The same for a skin-coloured part that the template does not take for a head.
+  float min_head_odds = -1.0F;
+  /// Log odds by the same of a head that needs no cluster of a person's shape: people behind
+  /// others, at the image's edge, on sofas.
+  float sure_head_odds = 1.0F;
+  /// Lowest log odds of a skin-coloured part that the template does not take for a head.
   float min_skin_head_odds = 0.0F;
   /// Lowest log odds, by its cluster, of a person. Higher: fewer false people, more missed.
   float min_person_odds = 0.0F;

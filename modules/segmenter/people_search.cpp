@@ -126,6 +126,11 @@ class Trial {
         measure_cluster(*lattice_, head, growth_.labels(), k, params_->joint, params_->reach);
     Verdict& verdict = verdicts_[static_cast<std::size_t>(k)];
     verdict.odds = classifier_->person_odds(*lattice_, head, figures);
+    // What grew along with a sure head, or what others hide of it, makes it no less of a head.
+    if (head.odds > params_->classifier.sure_head_odds) {
+      verdict.odds = std::max(verdict.odds, head.odds);
+      return;
+    }
     verdict.rejection = check_validity(figures, params_->filters);
     const float min_odds = params_->classifier.min_person_odds;
     if (!verdict.rejection && verdict.odds < min_odds) {

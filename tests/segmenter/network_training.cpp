@@ -1,6 +1,5 @@
 #include "tests/segmenter/network_training.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numeric>
@@ -10,119 +9,149 @@
 namespace limbcast::segmenter {
 namespace {
 
-/// Adam over one vector of weights.
+/// Examples that one step looks at.
+constexpr std::size_t kBatch = 64;
+/// The step falls to this share of itself over the epochs.
+constexpr float kLastRate = 0.05F;
+
+/// Adam over one block of weights.
 class Adam {
  public:
-  explicit Adam(std::vector<float>& weights)
-      : weights_(weights), mean_(weights.size()), square_(weights.size()) {}
+  explicit Adam(Eigen::Index size)
+      : mean_(Eigen::ArrayXf::Zero(size)), square_(Eigen::ArrayXf::Zero(size)) {}
 
-  void step(const std::vector<float>& gradient, float rate, float decay) {
-    constexpr float kMean = 0.9F, kSquare = 0.999F;
+  void step(const Eigen::Ref<const Eigen::ArrayXf>& gradient, float rate, float decay,
+            Eigen::Ref<Eigen::ArrayXf> weights) {
+    constexpr float kMean = 0.9F, kSquare = 0.999F, kTiny = 1e-8F;
     mean_power_ *= kMean;
     square_power_ *= kSquare;
     const float scale = rate * std::sqrt(1.0F - square_power_) / (1.0F - mean_power_);
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-      mean_[i] = kMean * mean_[i] + (1.0F - kMean) * gradient[i];
-      square_[i] = kSquare * square_[i] + (1.0F - kSquare) * gradient[i] * gradient[i];
-      weights_[i] -=
-          scale * mean_[i] / (std::sqrt(square_[i]) + 1e-8F) + rate * decay * weights_[i];
-    }
+    mean_ = kMean * mean_ + (1.0F - kMean) * gradient;
+    square_ = kSquare * square_ + (1.0F - kSquare) * gradient.square();
+    weights -= scale * mean_ / (square_.sqrt() + kTiny) + rate * decay * weights;
   }
 
  private:
-  std::vector<float>& weights_;
-  std::vector<float> mean_, square_;
+  Eigen::ArrayXf mean_, square_;
   float mean_power_ = 1.0F, square_power_ = 1.0F;
 };
 
-Network random_network(int inputs, int hidden, std::mt19937& random) {
-  Network network;
-  network.inputs = inputs;
-  network.hidden = hidden;
+/// One weight for each in a Network: what its loss changes with it.
+struct Gradient {
+  Network::Weights hidden_weights;
+  Eigen::VectorXf hidden_bias, output_weights;
+  float output_bias = 0.0F;
+};
+
+/// Inputs and truth of some examples.
+struct Batch {
+  Network::Weights inputs;
+  Eigen::VectorXf positive;
+};
+
+Network random_network(Eigen::Index inputs, int hidden, std::mt19937& random) {
   const auto uniform = [&] { return static_cast<float>(random()) / 4294967296.0F * 2.0F - 1.0F; };
   const float range = 1.0F / std::sqrt(static_cast<float>(inputs));
-  for (int i = 0; i < hidden * (inputs + 1); ++i)
-    network.hidden_weights.push_back(range * uniform());
-  for (int i = 0; i <= hidden; ++i) network.output_weights.push_back(0.3F * uniform());
+  Network network;
+  network.hidden_weights =
+      Network::Weights::NullaryExpr(hidden, inputs, [&] { return range * uniform(); });
+  network.hidden_bias = Eigen::VectorXf::Zero(hidden);
+  network.output_weights = Eigen::VectorXf::NullaryExpr(hidden, [&] { return 0.3F * uniform(); });
   return network;
 }
 
-/// Adds the gradient of one example's loss.
-void add_gradient(const Network& network, const Example& example,
-                  std::vector<float>& hidden_gradient, std::vector<float>& output_gradient) {
-  const auto inputs = static_cast<std::size_t>(network.inputs),
-             hidden = static_cast<std::size_t>(network.hidden);
-  std::vector<float> activation(hidden);
-  float odds = network.output_weights[hidden];
-  for (std::size_t h = 0; h < hidden; ++h) {
-    const float* row = network.hidden_weights.data() + h * (inputs + 1);
-    float sum = row[inputs];
-    for (std::size_t i = 0; i < inputs; ++i) sum += row[i] * example.input[i];
-    activation[h] = sum;
-    odds += network.output_weights[h] * soft_sign(sum);
+/// Mean gradient of the logistic loss over the batch.
+Gradient gradient_of(const Network& network, const Batch& batch) {
+  const Network::Weights activation =
+      (batch.inputs * network.hidden_weights.transpose()).rowwise() +
+      network.hidden_bias.transpose();
+  const Network::Weights output = activation.unaryExpr(&soft_sign);
+  const Eigen::ArrayXf odds = (output * network.output_weights).array() + network.output_bias;
+  const Eigen::VectorXf error = (1.0F / (1.0F + (-odds).exp()) - batch.positive.array()) /
+                                static_cast<float>(batch.positive.size());
+  const Network::Weights back = (error * network.output_weights.transpose()).array() /
+                                (1.0F + activation.array().abs()).square();
+  return {back.transpose() * batch.inputs, back.colwise().sum().transpose(),
+          output.transpose() * error, error.sum()};
+}
+
+Eigen::Map<Eigen::ArrayXf> flat(Network::Weights& weights) {
+  return {weights.data(), weights.size()};
+}
+
+/// Adam over all weights of a network.
+class Descent {
+ public:
+  explicit Descent(const Network& network)
+      : hidden_weights_(network.hidden_weights.size()),
+        hidden_bias_(network.hidden_bias.size()),
+        output_weights_(network.output_weights.size()),
+        output_bias_(1) {}
+
+  void step(Gradient gradient, float rate, float decay, Network& network) {
+    hidden_weights_.step(flat(gradient.hidden_weights), rate, decay, flat(network.hidden_weights));
+    hidden_bias_.step(gradient.hidden_bias.array(), rate, 0.0F, network.hidden_bias.array());
+    output_weights_.step(gradient.output_weights.array(), rate, decay,
+                         network.output_weights.array());
+    output_bias_.step(Eigen::Map<Eigen::ArrayXf>(&gradient.output_bias, 1), rate, 0.0F,
+                      Eigen::Map<Eigen::ArrayXf>(&network.output_bias, 1));
   }
-  const float error =
-      example.weight * (1.0F / (1.0F + std::exp(-odds)) - (example.positive ? 1.0F : 0.0F));
-  output_gradient[hidden] += error;
-  for (std::size_t h = 0; h < hidden; ++h) {
-    output_gradient[h] += error * soft_sign(activation[h]);
-    const float slope = 1.0F / std::pow(1.0F + std::abs(activation[h]), 2.0F);
-    const float back = error * network.output_weights[h] * slope;
-    float* row = hidden_gradient.data() + h * (inputs + 1);
-    for (std::size_t i = 0; i < inputs; ++i) row[i] += back * example.input[i];
-    row[inputs] += back;
-  }
+
+ private:
+  Adam hidden_weights_, hidden_bias_, output_weights_, output_bias_;
+};
+
+template <class Values>
+void write_list(const std::string& type, const std::string& name, const Values& values,
+                std::ostream& file) {
+  file << "constexpr " << type << " " << name << "[] = {";
+  for (Eigen::Index i = 0; i < values.size(); ++i) file << values[i] << "F,";
+  file << "};\n";
 }
 
 void write_network(const Network& network, const std::string& name, std::ostream& file) {
-  const auto stride = static_cast<std::size_t>(network.inputs) + 1;
-  const auto hidden = static_cast<std::size_t>(network.hidden);
-  std::vector<float> scales;
   file << "constexpr std::int8_t " << name << "RowWeights[] = {\n";
-  for (std::size_t h = 0; h < hidden; ++h) {
-    float largest = 1e-9F;
-    for (std::size_t i = 0; i < stride; ++i)
-      largest = std::max(largest, std::abs(network.hidden_weights[h * stride + i]));
-    scales.push_back(largest / 127.0F);
-    for (std::size_t i = 0; i < stride; ++i) {
-      file << std::lround(network.hidden_weights[h * stride + i] / scales.back())
-           << (i + 1 < stride ? "," : ",\n");
-    }
+  Eigen::VectorXf scales = network.hidden_weights.cwiseAbs().rowwise().maxCoeff() / 127.0F;
+  scales = scales.cwiseMax(1e-9F);
+  for (Eigen::Index h = 0; h < scales.size(); ++h) {
+    for (Eigen::Index i = 0; i < network.hidden_weights.cols(); ++i)
+      file << std::lround(network.hidden_weights(h, i) / scales[h]) << ",";
+    file << "\n";
   }
-  file << "};\nconstexpr float " << name << "RowScales[] = {";
+  file << "};\n" << std::fixed;
   file.precision(9);
-  for (const float scale : scales) file << std::fixed << scale << "F,";
-  file << "};\nconstexpr float " << name << "OutputWeights[] = {";
-  for (const float weight : network.output_weights) file << weight << "F,";
-  file << "};\nconstexpr StoredNetwork " << name << " = {" << network.inputs << ", "
-       << network.hidden << ", " << name << "RowScales, " << name << "RowWeights, " << name
-       << "OutputWeights};\n";
+  write_list("float", name + "RowScales", scales, file);
+  write_list("float", name + "HiddenBias", network.hidden_bias, file);
+  write_list("float", name + "OutputWeights", network.output_weights, file);
+  file << "constexpr StoredNetwork " << name << " = {" << network.hidden_weights.cols() << ", "
+       << scales.size() << ", " << name << "RowScales, " << name << "RowWeights, " << name
+       << "HiddenBias, " << name << "OutputWeights, " << network.output_bias << "F};\n";
 }
 
 }  // namespace
 
 Network train(const std::vector<Example>& examples, const TrainingParams& params) {
-  constexpr std::size_t kBatch = 64;
   std::mt19937 random(params.seed);
-  Network network =
-      random_network(static_cast<int>(examples.at(0).input.size()), params.hidden, random);
-  Adam hidden_adam(network.hidden_weights), output_adam(network.output_weights);
+  const auto inputs = static_cast<Eigen::Index>(examples.at(0).input.size());
+  Network network = random_network(inputs, params.hidden, random);
+  Descent descent(network);
   std::vector<std::size_t> order(examples.size());
   std::iota(order.begin(), order.end(), 0U);
+  Batch batch;
   for (int epoch = 0; epoch < params.epochs; ++epoch) {
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-    const float rate =
-        params.rate * std::pow(0.1F, static_cast<float>(epoch) / static_cast<float>(params.epochs));
+    const float rate = params.rate * std::pow(kLastRate, static_cast<float>(epoch) /
+                                                             static_cast<float>(params.epochs));
     for (std::size_t start = 0; start < order.size(); start += kBatch) {
-      std::vector<float> hidden_gradient(network.hidden_weights.size()),
-          output_gradient(network.output_weights.size());
-      const std::size_t end = std::min(order.size(), start + kBatch);
-      for (std::size_t i = start; i < end; ++i)
-        add_gradient(network, examples[order[i]], hidden_gradient, output_gradient);
-      for (float& g : hidden_gradient) g /= static_cast<float>(end - start);
-      for (float& g : output_gradient) g /= static_cast<float>(end - start);
-      hidden_adam.step(hidden_gradient, rate, params.decay);
-      output_adam.step(output_gradient, rate, params.decay);
+      const auto count = static_cast<Eigen::Index>(std::min(kBatch, order.size() - start));
+      batch.inputs.resize(count, inputs);
+      batch.positive.resize(count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Example& example = examples[order[start + static_cast<std::size_t>(i)]];
+        batch.inputs.row(i) = Eigen::Map<const Eigen::RowVectorXf>(example.input.data(), inputs);
+        batch.positive[i] = example.positive ? 1.0F : 0.0F;
+      }
+      descent.step(gradient_of(network, batch), rate, params.decay, network);
     }
   }
   return network;

@@ -11,14 +11,13 @@ namespace limbcast::segmenter {
 struct Example {
   std::vector<float> input;
   bool positive = false;
-  float weight = 1.0F;
 };
 
 struct TrainingParams {
-  int hidden = 24;
+  int hidden = 32;
   int epochs = 12;
-  float rate = 0.002F;  ///< Adam's step, falling to a tenth over the epochs
-  float decay = 1e-4F;  ///< of the weights, a step
+  float rate = 0.002F;  ///< Adam's step, falling to a twentieth over the epochs
+  float decay = 1e-3F;  ///< of the weights, a step, times the rate
   unsigned seed = 1;
 };
 

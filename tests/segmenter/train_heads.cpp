@@ -1,10 +1,12 @@
 // Trains the two networks of the head classifier and writes modules/segmenter/head_networks.inc:
-// limbcast-train-heads OUT.inc FOLDER... reads each folder's frames (pairs through the
-// reconstructor, and with their true depth). Frames that show bodies D4 or D5 are left out: they
-// are for checking.
+// limbcast-train-heads OUT.inc FOLDER... reads each folder's labelled frames (pairs through the
+// reconstructor). Frames that show bodies D4 or D5 are left out: they are for checking.
+// train_heads.sh makes the simulated folders and runs it on all that it was trained on.
 
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <opencv2/imgproc.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -12,9 +14,9 @@
 #include "modules/segmenter/cluster_figures.hpp"
 #include "modules/segmenter/head_patch.hpp"
 #include "modules/segmenter/joint_growing.hpp"
+#include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/segmenter.hpp"
-#include "modules/segmenter/skin_seeds.hpp"
 #include "tests/segmenter/network_training.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 
@@ -23,100 +25,150 @@ namespace {
 using namespace limbcast;
 using namespace limbcast::segmenter;
 
-constexpr float kSameHead_m = 0.13F;    ///< a candidate this near to a head is one
-constexpr float kOtherPlace_m = 0.24F;  ///< one this far from all heads is none
+/// A candidate whose centre is this near to a head's, across the ray, is that head; one farther off
+/// than the second is none; what lies between is not trained on.
+constexpr float kSameHead_m = 0.10F, kOtherPlace_m = 0.15F;
+/// The same for whole people: a cluster from a seed beside the head may be a good one.
+constexpr float kOtherPerson_m = 0.24F;
+/// Patches taken of each head and of each other place, all but the first varied.
+constexpr int kHeadPatches = 6, kOtherPatches = 3;
 
-/// One frame, ready for the search; small enough to keep hundreds.
+using Random = std::mt19937;
+
+float uniform(Random& random) { return static_cast<float>(random()) / 4294967296.0F; }
+
+float normal(Random& random) {
+  float sum = 0.0F;
+  for (int i = 0; i < 12; ++i) sum += uniform(random);
+  return sum - 6.0F;
+}
+
+/// One frame, ready for the search; small enough to keep thousands.
 struct Scene {
-  PinholeCamera camera;
   Lattice lattice;
   std::vector<Eigen::Vector3f> heads_m;  ///< level frame, hidden ones too
   std::vector<bool> visible;
   std::vector<HeadCandidate> candidates;
+  std::size_t fold = 0;
 };
 
-using Random = std::mt19937;
-
-float normal(Random& random) {
-  float sum = 0.0F;
-  for (int i = 0; i < 12; ++i) sum += static_cast<float>(random()) / 4294967296.0F;
-  return sum - 6.0F;
+/// Candidates of the template and the best place on each visible head, which the template may miss.
+void find_candidates(const Params& params, Scene& scene) {
+  scene.candidates = find_heads(scene.lattice, params.head);
+  for (std::size_t h = 0; h < scene.heads_m.size(); ++h) {
+    if (!scene.visible[h]) continue;
+    HeadCandidate best;
+    float nearest_m = kSameHead_m;
+    for (std::size_t i = 0; i < scene.lattice.size(); ++i) {
+      if (scene.lattice.depth_m[i] <= 0.0F) continue;
+      const Eigen::Vector3f center_m = head_center(scene.lattice, scene.lattice.level_m[i]);
+      const float distance_m = (center_m - scene.heads_m[h]).norm();
+      if (distance_m >= nearest_m) continue;
+      nearest_m = distance_m;
+      best.u = static_cast<int>(i) % scene.lattice.width;
+      best.v = static_cast<int>(i) / scene.lattice.width;
+      best.surface_m = scene.lattice.level_m[i];
+      best.center_m = center_m;
+    }
+    if (nearest_m < kSameHead_m) scene.candidates.push_back(best);
+  }
 }
 
 Scene make_scene(const LoadedFrame& frame, const Params& params) {
   Scene scene;
-  scene.camera = *frame.cloud.camera;
+  const LevelFrame level =
+      make_level_frame(frame.cloud.stamp.gravity, find_ground(frame.cloud, params.ground));
   int step = 1;
-  scene.lattice = make_lattice(
-      frame.cloud,
-      make_level_frame(frame.cloud.stamp.gravity, find_ground(frame.cloud, params.ground)), step);
+  scene.lattice = frame.cloud.organized() ? make_lattice(frame.cloud, level, step)
+                                          : render_panorama(frame.cloud, level, params.panorama);
   for (const TruePerson& person : frame.persons) {
     const auto head = person.joints_m.find("head");
     if (head == person.joints_m.end()) continue;
-    scene.heads_m.push_back(scene.lattice.frame.to_level(head->second));
+    scene.heads_m.push_back(level.to_level(head->second));
     scene.visible.push_back(person.head_visible());
   }
-  HeadShapeParams loose = params.head;
-  loose.min_score -= 0.1F;
-  scene.candidates = find_heads(scene.lattice, loose);
-  static const SkinColor skin;
-  for (const HeadCandidate& part : find_skin_parts(frame.cloud, scene.lattice, skin, params.skin)) {
-    scene.candidates.push_back(part);
-  }
+  find_candidates(params, scene);
   return scene;
 }
 
+/// The scene as a depth camera tells it that fills holes and smooths: silhouettes grow by up to
+/// `reach_px` and take the place of what lies behind them, as those of a RealSense do.
+Scene with_grown_silhouettes(Scene scene, int reach_px, const Params& params) {
+  constexpr float kNothing_m = 100.0F, kSmooth = 0.05F;
+  Lattice& lattice = scene.lattice;
+  cv::Mat1f depth = cv::Mat1f(lattice.height, lattice.width, lattice.depth_m.data()).clone();
+  depth.setTo(kNothing_m, depth == 0.0F);
+  const int size = 2 * reach_px + 1;
+  cv::erode(depth, depth, cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size}));
+  cv::Mat1f mean;
+  cv::blur(depth, mean, {5, 5});
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    const int k = static_cast<int>(i);
+    float z_m = depth(k);
+    // Holes far from all that was measured stay holes.
+    if (z_m >= kNothing_m || lattice.depth_m[i] <= 0.0F) continue;
+    if (std::abs(mean(k) - z_m) < kSmooth * z_m) z_m = mean(k);
+    const Eigen::Vector3f ray = lattice.frame.to_sensor(lattice.level_m[i]) / lattice.depth_m[i];
+    lattice.level_m[i] = lattice.frame.to_level(ray * z_m);
+    lattice.depth_m[i] = z_m;
+  }
+  find_candidates(params, scene);
+  return scene;
+}
+
+/// Distance of the nearest head; along the ray the noise of the sensor is taken off.
 float distance_to_heads_m(const Scene& scene, const Eigen::Vector3f& center_m) {
   float nearest_m = 1e9F;
-  for (const Eigen::Vector3f& head : scene.heads_m)
-    nearest_m = std::min(nearest_m, (head - center_m).norm());
+  const Eigen::Vector3f sensor_m(0.0F, 0.0F, scene.lattice.frame.sensor_height_m);
+  for (const Eigen::Vector3f& head : scene.heads_m) {
+    const Eigen::Vector3f ray = (head - sensor_m).normalized();
+    const Eigen::Vector3f offset = center_m - head;
+    const float along_m = std::abs(offset.dot(ray));
+    const float across_m = (offset - offset.dot(ray) * ray).norm();
+    const float noise_m = 2.0F * scene.lattice.depth_noise.sigma_m((head - sensor_m).norm());
+    nearest_m = std::min(nearest_m, std::hypot(across_m, std::max(0.0F, along_m - noise_m)));
+  }
   return nearest_m;
 }
 
-/// Patches of one candidate, shifted, scaled and mirrored.
-void add_patches(const Scene& scene, const HeadCandidate& candidate, bool positive, int count,
-                 Random& random, std::vector<Example>& examples) {
-  const Lattice& lattice = scene.lattice;
-  for (int i = 0; i < count; ++i) {
-    PatchPlace place;
-    const float depth_m = lattice.depth_m[lattice.index(candidate.u, candidate.v)];
-    const float spread_px = (i == 0 ? 0.0F : 0.025F) * lattice.focal_px / depth_m;
-    place.u = static_cast<float>(candidate.u) + spread_px * normal(random);
-    place.v = static_cast<float>(candidate.v) + spread_px * normal(random);
-    place.depth_m = depth_m + (i == 0 ? 0.0F : 0.02F) * normal(random);
-    place.height_m = candidate.surface_m.z() + 0.05F * normal(random);
-    place.scale = 1.0F + (i == 0 ? 0.0F : 0.06F) * normal(random);
-    place.mirrored = i % 2 == 1;
-    examples.push_back({sample_patch(lattice, place), positive, 1.0F});
+/// Noise and holes of another sensor, from none to severe.
+void corrupt(std::vector<float>& patch, Random& random) {
+  constexpr float kMostNoise = 0.12F, kMostHoles = 0.25F;
+  const float noise = kMostNoise * std::pow(uniform(random), 2.0F);
+  const float holes = kMostHoles * std::pow(uniform(random), 3.0F);
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(2 * count_patch_samples()); i += 2) {
+    if (patch[i + 1] <= 0.0F) continue;
+    if (uniform(random) < holes)
+      patch[i] = patch[i + 1] = 0.0F;
+    else
+      patch[i] = std::clamp(patch[i] + noise * normal(random), -1.0F, 1.0F);
   }
 }
 
-/// The candidate that the template would give if it looked at this head.
-bool seed_at_head(const Lattice& lattice, const PinholeCamera& camera,
-                  const Eigen::Vector3f& head_m, HeadCandidate& seed) {
-  const Eigen::Vector2f px = camera.project(lattice.frame.to_sensor(head_m)) * lattice.focal_px /
-                             static_cast<float>(camera.fx);
-  const int u = static_cast<int>(px.x()), v = static_cast<int>(px.y());
-  if (u < 0 || v < 0 || u >= lattice.width || v >= lattice.height) return false;
-  const std::size_t i = lattice.index(u, v);
-  if (lattice.depth_m[i] <= 0.0F) return false;
-  seed = {u, v, lattice.level_m[i], head_center(lattice, lattice.level_m[i])};
-  return (seed.center_m - head_m).norm() < kSameHead_m;
+/// Patches of one candidate; all but the first shifted, scaled, mirrored and corrupted.
+void add_patches(const Lattice& lattice, const HeadCandidate& candidate, bool positive,
+                 Random& random, std::vector<Example>& examples) {
+  const float depth_m = lattice.depth_m[lattice.index(candidate.u, candidate.v)];
+  for (int i = 0; i < (positive ? kHeadPatches : kOtherPatches); ++i) {
+    const float varied = i == 0 ? 0.0F : 1.0F;
+    const float spread_px = varied * 0.025F * lattice.focal_px / depth_m;
+    PatchPlace place;
+    place.u = static_cast<float>(candidate.u) + spread_px * normal(random);
+    place.v = static_cast<float>(candidate.v) + spread_px * normal(random);
+    place.depth_m = depth_m + varied * 0.02F * normal(random);
+    place.height_m = candidate.surface_m.z() + varied * 0.05F * normal(random);
+    place.scale = 1.0F + varied * 0.06F * normal(random);
+    place.mirrored = i % 2 == 1;
+    examples.push_back({sample_patch(lattice, place), positive});
+    if (i > 0) corrupt(examples.back().input, random);
+  }
 }
 
 void add_patch_examples(const Scene& scene, Random& random, std::vector<Example>& examples) {
-  for (std::size_t h = 0; h < scene.heads_m.size(); ++h) {
-    HeadCandidate seed;
-    if (scene.visible[h] && seed_at_head(scene.lattice, scene.camera, scene.heads_m[h], seed)) {
-      add_patches(scene, seed, true, 6, random, examples);
-    }
-  }
   for (const HeadCandidate& candidate : scene.candidates) {
     const float d = distance_to_heads_m(scene, candidate.center_m);
-    if (d < kSameHead_m)
-      add_patches(scene, candidate, true, 4, random, examples);
-    else if (d > kOtherPlace_m)
-      add_patches(scene, candidate, false, 3, random, examples);
+    if (d < kSameHead_m || d > kOtherPlace_m)
+      add_patches(scene.lattice, candidate, d < kSameHead_m, random, examples);
   }
 }
 
@@ -132,11 +184,9 @@ void add_person_examples(const Scene& scene, const HeadClassifier& classifier, c
     std::vector<HeadCandidate> kept;
     for (std::size_t k = 0; k < heads.size(); ++k) {
       const float d = distance_to_heads_m(scene, heads[k].center_m);
-      if (d < kSameHead_m)
-        examples.push_back({person_input(scene.lattice, heads[k], figures[k]), true, 1.0F});
-      else if (d > kOtherPlace_m)
-        examples.push_back({person_input(scene.lattice, heads[k], figures[k]), false, 1.0F});
-      if (d <= kOtherPlace_m) kept.push_back(heads[k]);
+      if (d < kOtherPlace_m || d > kOtherPerson_m)
+        examples.push_back({person_input(scene.lattice, heads[k], figures[k]), d < kOtherPlace_m});
+      if (d <= kOtherPerson_m) kept.push_back(heads[k]);
     }
     heads = kept;
   }
@@ -163,19 +213,25 @@ bool for_checking(const LoadedFrame& frame) {
 }
 
 std::vector<Scene> load_scenes(const std::vector<std::string>& folders, const Params& params) {
+  constexpr int kMostReach_px = 6;  // of the thinned lattice: 5 cm at 2.3 m
+  Random random(11);
   std::vector<Scene> scenes;
   for (const std::string& folder : folders) {
-    for (const DepthFrom depth_from : {DepthFrom::kReconstructor, DepthFrom::kTruth}) {
-      const FrameReader reader(folder, depth_from);
-      if (depth_from == DepthFrom::kTruth && !reader.is_stereo()) continue;
-      for (std::size_t i = 0; i < reader.paths().size(); ++i) {
-        // Of recorded rooms without people every second one is for checking.
-        if (reader.is_stereo() && folder.find("nohuman") != std::string::npos && i % 2 == 1)
-          continue;
-        const LoadedFrame frame = reader.read(reader.paths()[i]);
-        if (frame.labelled && !for_checking(frame)) scenes.push_back(make_scene(frame, params));
-      }
+    const FrameReader reader(folder, DepthFrom::kReconstructor);
+    for (std::size_t i = 0; i < reader.paths().size(); ++i) {
+      // Of the recorded rooms without people every second one is for checking.
+      if (folder.find("stereo_dev/nohuman") != std::string::npos && i % 2 == 1) continue;
+      const LoadedFrame frame = reader.read(reader.paths()[i]);
+      if (!frame.labelled || for_checking(frame)) continue;
+      scenes.push_back(make_scene(frame, params));
+      // Neighbouring frames of a recording look alike, so they go to one fold.
+      scenes.back().fold = i / 8 % 2;
+      if (!frame.cloud.organized() || reader.is_stereo()) continue;
+      const int reach_px = 1 + static_cast<int>(random() % kMostReach_px);
+      scenes.push_back(with_grown_silhouettes(scenes.back(), reach_px, params));
     }
+    std::printf("%s: %zu scenes so far\n", folder.c_str(), scenes.size());
+    std::fflush(stdout);
   }
   return scenes;
 }
@@ -198,10 +254,7 @@ int main(int argc, char** argv) {
   Random random(7);
   std::array<Fold, 2> folds;
   const std::vector<Scene> scenes = load_scenes(folders, params);
-  // Neighbouring frames of a recording look alike, so they go to one fold.
-  const auto fold_of = [](std::size_t i) { return i / 8 % 2; };
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    add_patch_examples(scenes[i], random, folds[fold_of(i)].patches);
+  for (const Scene& scene : scenes) add_patch_examples(scene, random, folds[scene.fold].patches);
   // The second network must see the first one's odds as they are on frames that it was not trained
   // on.
   TrainingParams patch_params;
@@ -210,10 +263,8 @@ int main(int argc, char** argv) {
   const HeadClassifier first(first_patch, unused);
   const HeadClassifier second(train(folds[1].patches, patch_params), unused);
   report("patches, fold 1 on fold 2", first_patch, folds[1].patches);
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    add_person_examples(scenes[i], fold_of(i) == 0 ? second : first, params,
-                        folds[fold_of(i)].persons);
-  }
+  for (const Scene& scene : scenes)
+    add_person_examples(scene, scene.fold == 0 ? second : first, params, folds[scene.fold].persons);
   TrainingParams person_params;
   person_params.hidden = 8;
   person_params.epochs = 300;
