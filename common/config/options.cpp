@@ -18,10 +18,10 @@ namespace po = boost::program_options;
 
 /// Sections a robot's configuration file may hold; a program reads its own and checks the names of
 /// the rest.
-constexpr std::array<std::string_view, 13> kModuleNames = {
+constexpr std::array<std::string_view, 14> kModuleNames = {
     "stereo_camera", "depth_camera", "laser_scanner", "reconstructor", "segmenter",
     "pose_fitter",   "tracker",      "viewer",        "replay",        "export_poses",
-    "evaluate",      "simulate",     "status"};
+    "evaluate",      "simulate",     "status",        "doctor"};
 
 std::string with_hyphens(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');

@@ -66,10 +66,9 @@ std::int64_t Bus::skipped() const {
 }
 
 void Bus::subscribe_bytes(const std::string& channel, Keep keep,
-                          std::function<void(const std::vector<std::uint8_t>&)> handler) {
+                          std::function<void(const ReceivedMessage&)> handler) {
   auto subscription = std::make_unique<Subscription>();
   subscription->bus = this;
-  subscription->channel = channel;
   subscription->keep = keep;
   subscription->handler = std::move(handler);
   // The C++ interface does not tell when LCM refuses.
@@ -91,7 +90,7 @@ std::string Bus::publish_bytes(const std::string& channel, const std::vector<std
   return status < 0 ? std::strerror(errno) : "";
 }
 
-void Bus::on_message(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* context) {
+void Bus::on_message(const lcm_recv_buf_t* buffer, const char* channel, void* context) {
   // LCM lets a packet pass that ends within its channel's name, with a size below 0; without bytes
   // it counts as malformed.
   const auto size = std::max(0, static_cast<std::int32_t>(buffer->data_size));
@@ -103,7 +102,8 @@ void Bus::on_message(const lcm_recv_buf_t* buffer, const char* /*channel*/, void
     subscription->pending.clear();
     ++bus.skipped_;
   }
-  subscription->pending.push_back({bus.next_order_++, {data, data + size}});
+  subscription->pending.push_back(
+      {bus.next_order_++, {channel, buffer->recv_utime, {data, data + size}}});
   bus.arrived_.notify_one();
 }
 
@@ -127,19 +127,19 @@ Bus::Subscription* Bus::first_pending() {
 
 bool Bus::handle(std::chrono::milliseconds timeout) {
   Subscription* subscription = nullptr;
-  std::vector<std::uint8_t> bytes;
+  ReceivedMessage message;
   {
     std::unique_lock lock(mutex_);
     arrived_.wait_for(lock, timeout, [this] { return first_pending() != nullptr; });
     subscription = first_pending();
     if (subscription == nullptr) return false;
-    bytes = std::move(subscription->pending.front().bytes);
+    message = std::move(subscription->pending.front().message);
     subscription->pending.pop_front();
   }
   try {
-    subscription->handler(bytes);
+    subscription->handler(message);
   } catch (const MessageError& error) {
-    if (on_malformed_) on_malformed_(subscription->channel, error.what());
+    if (on_malformed_) on_malformed_(message.channel, error.what());
   }
   return true;
 }

@@ -32,6 +32,13 @@ enum class Keep {
   kAll,     ///< every message: calibrations, offline tools
 };
 
+/// A message as it came, whatever its type.
+struct ReceivedMessage {
+  std::string channel;
+  std::int64_t received_utime = 0;  ///< when its last packet reached this host [us]
+  std::vector<std::uint8_t> bytes;
+};
+
 /// LCM with lambdas. A thread of its own receives, so that a slow handler makes LCM lose nothing;
 /// the handlers run in the thread that calls handle(), in order of arrival.
 ///
@@ -50,10 +57,13 @@ class Bus {
   template <class Message>
   void subscribe(const std::string& channel, Keep keep,
                  std::function<void(const Message&)> handler) {
-    subscribe_bytes(channel, keep,
-                    [handler = std::move(handler)](const std::vector<std::uint8_t>& bytes) {
-                      handler(decode<Message>(bytes));
-                    });
+    subscribe_bytes(channel, keep, [handler = std::move(handler)](const ReceivedMessage& message) {
+      handler(decode<Message>(message.bytes));
+    });
+  }
+  /// Every message on every channel.
+  void subscribe_everything(std::function<void(const ReceivedMessage&)> handler) {
+    subscribe_bytes(".*", Keep::kAll, std::move(handler));
   }
 
   /// Empty: sent as far as this host can tell; else why not. LCM tells it only for messages below
@@ -78,20 +88,19 @@ class Bus {
  private:
   struct Pending {
     std::int64_t order;
-    std::vector<std::uint8_t> bytes;
+    ReceivedMessage message;
   };
   struct Subscription {
     Bus* bus;
-    std::string channel;
     Keep keep;
-    std::function<void(const std::vector<std::uint8_t>&)> handler;
+    std::function<void(const ReceivedMessage&)> handler;
     std::deque<Pending> pending;
   };
 
   void subscribe_bytes(const std::string& channel, Keep keep,
-                       std::function<void(const std::vector<std::uint8_t>&)> handler);
+                       std::function<void(const ReceivedMessage&)> handler);
   std::string publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
-  static void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* subscription);
+  static void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* context);
   void receive();
   Subscription* first_pending();
 

@@ -56,7 +56,7 @@ std::string why_unreachable(const MulticastUrl& url) {
   const sockaddr_in address = url.socket_address();
   const bool connected =
       connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  const std::string reason = connected ? "" : std::strerror(errno);
+  std::string reason = connected ? "" : std::strerror(errno);
   close(probe);
   return reason;
 }

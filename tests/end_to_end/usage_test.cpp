@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram,
                                            "limbcast-reconstructor", "limbcast-segmenter",
                                            "limbcast-pose-fitter", "limbcast-replay",
                                            "limbcast-export-poses", "limbcast-evaluate",
-                                           "limbcast-viewer"));
+                                           "limbcast-viewer", "limbcast-doctor"));
 
 }  // namespace
 }  // namespace limbcast::test

@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -9,6 +11,9 @@
 
 namespace limbcast::test {
 namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
 
 class LossyLink : public ThreeHosts, public ::testing::WithParamInterface<Impairment> {
  protected:
@@ -184,6 +189,34 @@ TEST_F(JumpingClock, OfTheCameraHostStopsNothing) {
     return std::isfinite(status.latency_p50_ms);
   }));
   EXPECT_GT(stop_logger_and_replay(), 0);
+}
+
+TEST_F(JumpingClock, IsNamedByTheDoctorOnAnotherHost) {
+  set_clock("+60");
+  ASSERT_NO_FATAL_FAILURE(start_robot());
+  const RunResult result = run_on("operator", "limbcast-doctor");
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_THAT(result.output, ContainsRegex("problem  clock of camera: [0-9.]+ ms ahead"));
+  EXPECT_THAT(result.output, HasSubstr("good     clock of vision"));
+  EXPECT_THAT(result.output, HasSubstr("good     multicast route: by eth0"));
+  EXPECT_THAT(result.output, HasSubstr("good     packets with missing pieces"));
+  EXPECT_THAT(result.output, HasSubstr("good     module pose_fitter on vision"));
+}
+
+TEST_F(ThreeHosts, AreToldByTheDoctorWhatIsMissing) {
+  start(kVisionPrograms);
+  ASSERT_TRUE(wait_for([this] { return status_.size() == kVisionPrograms.size(); }));
+  kill("limbcast-segmenter");
+  network_->take_down("operator");
+  RunResult result = run_on("operator", "limbcast-doctor");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("problem  multicast route: none to 239.255.76.67"));
+  network_->bring_up("operator");
+  result = run_on("operator", "limbcast-doctor");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("problem  module segmenter: is not heard\n"
+                                       "         mend: systemctl start limbcast-segmenter"));
+  EXPECT_THAT(result.output, HasSubstr("no camera or laser scanner is heard"));
 }
 
 }  // namespace

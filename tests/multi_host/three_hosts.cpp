@@ -221,6 +221,10 @@ void ThreeHosts::handle() {
   return wait_for([&] { return status_.count(module) > 0 && told(status_[module]); });
 }
 
+RunResult ThreeHosts::run_on(const std::string& host, const std::string& name) const {
+  return run(network_->on_host(host, {program(name), std::string("--lcm-url=") + kUrl}));
+}
+
 int ThreeHosts::stop_logger_and_replay() {
   stop("lcm-logger", SIGTERM);
   const std::string out = folder_ + "/replayed.log";

@@ -55,6 +55,8 @@ class ThreeHosts : public ::testing::Test {
   ::testing::AssertionResult wait_for_status(
       const std::string& module, const std::function<bool(const module_status_t&)>& told);
 
+  /// Runs one of our programs to its end on the host.
+  RunResult run_on(const std::string& host, const std::string& name) const;
   /// Ends lcm-logger and replays what it recorded; the number of frames with poses in the replay.
   int stop_logger_and_replay();
   const std::string& log() const { return log_; }

@@ -1,0 +1,59 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limbcast/module_status_t.hpp>
+#include <limbcast/mounting_t.hpp>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "common/lcm_io/bus.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::doctor {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kProblems = 1, kWrongUsage = 2;
+
+TEST(Doctor, NamesMissingModulesAndForeignTypesThatItHears) {
+  const std::string url = test::private_lcm_url();
+  test::ChildProcess segmenter({test::program("limbcast-segmenter"), "--lcm-url", url},
+                               test::temporary_folder("doctor") + "/segmenter.txt");
+  std::atomic<bool> examined{false};
+  std::thread foreigner([&] {
+    lcm_io::Bus bus(url);
+    while (!examined) {
+      bus.publish("BODY_POSES", mounting_t{});
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+  const auto result = test::run(
+      {test::program("limbcast-doctor"), "--lcm-url", url, "--expect", "segmenter,pose_fitter"});
+  examined = true;
+  foreigner.join();
+  EXPECT_EQ(result.exit_code, kProblems);
+  EXPECT_THAT(result.output, HasSubstr("problem  channel BODY_POSES: carries another type"));
+  EXPECT_THAT(result.output, HasSubstr("problem  module pose_fitter: is not heard\n"
+                                       "         mend: systemctl start limbcast-pose-fitter"));
+  EXPECT_THAT(result.output, HasSubstr("good     module segmenter on "));
+}
+
+TEST(Doctor, PrintsJson) {
+  const auto result = test::run({test::program("limbcast-doctor"), "--lcm-url",
+                                 test::private_lcm_url(), "--listen-s", "1", "--json"});
+  const auto json = nlohmann::json::parse(result.output);
+  EXPECT_EQ(json["good"], result.exit_code == 0);
+  EXPECT_FALSE(json["findings"].empty());
+}
+
+TEST(Doctor, RefusesAUrlThatIsNotMulticast) {
+  const auto result =
+      test::run({test::program("limbcast-doctor"), "--lcm-url", "file:///tmp/x.log"});
+  EXPECT_EQ(result.exit_code, kWrongUsage);
+  EXPECT_THAT(result.output, HasSubstr("is no multicast URL"));
+}
+
+}  // namespace
+}  // namespace limbcast::doctor
