@@ -77,6 +77,15 @@ std::vector<std::int16_t> JointGrowth::drop(std::int16_t head) {
   return changed;
 }
 
+void JointGrowth::grow_without(const std::vector<std::uint32_t>& points) {
+  forbidden_.resize(lattice_->size(), 0);
+  for (const std::uint32_t i : points) forbidden_[i] = 1;
+  labels_.assign(labels_.size(), kNobody);
+  way_m_.assign(way_m_.size(), kNoWay_m);
+  bridges_.clear();
+  grow();
+}
+
 std::vector<std::uint32_t> JointGrowth::free_points(std::int16_t head) {
   std::vector<std::uint32_t> freed;
   for (std::uint32_t i = 0; i < labels_.size(); ++i) {
@@ -112,7 +121,7 @@ void JointGrowth::start(std::int16_t head) {
   for (int v = candidate.v - radius_px; v <= candidate.v + radius_px; ++v) {
     for (int u = candidate.u - radius_px; u <= candidate.u + radius_px; ++u) {
       const auto i = lattice_->find(u, v);
-      if (!i || way_m_[*i] == 0.0F) continue;
+      if (!i || way_m_[*i] == 0.0F || (!forbidden_.empty() && forbidden_[*i] != 0)) continue;
       if ((lattice_->level_m[*i] - candidate.center_m).squaredNorm() > radius_m * radius_m)
         continue;
       way_m_[*i] = 0.0F;
@@ -205,6 +214,7 @@ bool JointGrowth::may_be_a_limb(std::uint32_t i) {
 }
 
 void JointGrowth::relax(std::uint32_t from, std::uint32_t to, float way_m) {
+  if (!forbidden_.empty() && forbidden_[to] != 0) return;
   if (way_m >= way_m_[to] - kSameWay_m || way_m > params_.max_way_m ||
       !reachable(lattice_->level_m[to], labels_[from]))
     return;

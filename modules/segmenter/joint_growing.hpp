@@ -26,6 +26,9 @@ class JointGrowth {
   /// whose clusters, or what lies beside them, changed.
   std::vector<std::int16_t> drop(std::int16_t head);
 
+  /// Grows again without some points: what turned out to be no part of a body.
+  void grow_without(const std::vector<std::uint32_t>& points);
+
   const std::vector<HeadCandidate>& heads() const { return heads_; }
   bool dropped(std::int16_t head) const { return dropped_[static_cast<std::size_t>(head)]; }
   /// For each point of the lattice the index of its head, or kNobody.
@@ -56,7 +59,8 @@ class JointGrowth {
   JointGrowingParams params_;
   ReachParams reach_;
   std::vector<std::int16_t> labels_;
-  std::vector<float> way_m_;  ///< from the head's surface
+  std::vector<std::uint8_t> forbidden_;  ///< empty, or 1 for a point that nobody may have
+  std::vector<float> way_m_;             ///< from the head's surface
   std::vector<std::vector<std::uint32_t>> buckets_;
   std::size_t bucket_ = 0;  ///< the one that is being walked
   std::vector<Bridge> bridges_;

@@ -92,6 +92,19 @@ struct JointGrowingParams {
   float head_radius_m = 0.15F;
 };
 
+/// What a body touches and is no part of it.
+struct FurnitureParams {
+  /// A limb is thinner than twice this [m]: two thighs side by side, a bent trunk from the side.
+  float limb_radius_m = 0.11F;
+  /// The trunk stands this near to the head's axis, across and behind [m].
+  float trunk_radius_m = 0.35F, trunk_depth_m = 0.40F;
+  /// Over the neck, this far below the head's centre, is only the head, hair and hat [m].
+  float neck_m = 0.12F, head_radius_m = 0.25F;
+  /// A surface ends where its depth over four pixels bends by this much [m], and by this many sigma
+  /// of the depth's noise.
+  float min_bend_m = 0.04F, bend_sigmas = 3.0F;
+};
+
 /// Ring template on the depth image.
 struct HeadShapeParams {
   /// Depth where heads are searched [m].
@@ -169,6 +182,7 @@ struct Params {
   ReachParams reach;
   PaperGrowingParams paper;
   JointGrowingParams joint;
+  FurnitureParams furniture;
   HeadShapeParams head;
   ClassifierParams classifier;
   FilterParams filters;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "modules/segmenter/cluster_figures.hpp"
+#include "modules/segmenter/furniture.hpp"
 #include "modules/segmenter/joint_growing.hpp"
 
 namespace limbcast::segmenter {
@@ -61,6 +62,8 @@ class Trial {
     for (const std::int16_t k : growth_.drop(static_cast<std::int16_t>(*weakest))) judge(k);
     return RejectedHead{growth_.heads()[*weakest], *verdicts_[*weakest].rejection};
   }
+
+  void leave_furniture() { segmenter::leave_furniture(*lattice_, params_->furniture, growth_); }
 
   /// The heads that are left, and their points.
   void name_people(FoundPeople& found) const {
@@ -186,6 +189,7 @@ FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candi
   Trial trial(lattice, std::move(likely), classifier, params);
   while (const auto rejected = trial.drop_rival()) found.rejected.push_back(*rejected);
   while (const auto rejected = trial.drop_weakest()) found.rejected.push_back(*rejected);
+  trial.leave_furniture();
   trial.name_people(found);
   return found;
 }

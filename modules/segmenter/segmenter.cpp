@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "modules/segmenter/furniture.hpp"
 #include "modules/segmenter/ground.hpp"
 #include "modules/segmenter/head_shape.hpp"
 #include "modules/segmenter/joint_growing.hpp"
@@ -90,8 +91,9 @@ Segments Segmenter::cut_out_people(const Cloud& cloud,
     heads.push_back(*head);
     result.segments.push_back(make_segment(*head, scene.lattice.frame, 0.0F));
   }
-  const auto labels = grow_together(scene.lattice, heads, params_.joint, params_.reach);
-  fill_segments(scene, labels_of_cloud(scene, labels), result);
+  JointGrowth growth(scene.lattice, heads, params_.joint, params_.reach);
+  leave_furniture(scene.lattice, params_.furniture, growth);
+  fill_segments(scene, labels_of_cloud(scene, growth.labels()), result);
   return result;
 }
 

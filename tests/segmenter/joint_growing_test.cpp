@@ -2,54 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <vector>
+
+#include "tests/segmenter/drawn_scene.hpp"
 
 namespace limbcast::segmenter {
 namespace {
-
-constexpr int kWidth = 160, kHeight = 240;
-constexpr float kFocal_px = 260.0F;
-constexpr float kBody_m = 3.0F;
-
-/// Depth at a place across and up from the middle of the view, measured at the body's depth.
-using Scene = std::function<float(float right_m, float up_m)>;
-
-/// What a level camera sees of a scene; the ground is not known.
-Lattice look_at(const Scene& depth_at) {
-  Lattice lattice;
-  lattice.width = kWidth;
-  lattice.height = kHeight;
-  lattice.focal_px = kFocal_px;
-  lattice.frame = make_level_frame(Gravity{}, std::nullopt);
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
-      const float right = (static_cast<float>(u) - kWidth / 2) / kFocal_px,
-                  up = (kHeight / 2 - static_cast<float>(v)) / kFocal_px;
-      const float z_m = depth_at(right * kBody_m, up * kBody_m);
-      lattice.depth_m.push_back(z_m);
-      lattice.level_m.emplace_back(right * z_m, z_m, up * z_m);
-      lattice.source.push_back(static_cast<std::uint32_t>(lattice.source.size()));
-    }
-  }
-  return lattice;
-}
-
-std::uint32_t index_at(const Lattice& lattice, float right_m, float up_m) {
-  const int u = kWidth / 2 + static_cast<int>(right_m / kBody_m * kFocal_px),
-            v = kHeight / 2 - static_cast<int>(up_m / kBody_m * kFocal_px);
-  return static_cast<std::uint32_t>(lattice.index(u, v));
-}
-
-HeadCandidate head_at(const Lattice& lattice, float right_m, float up_m) {
-  const auto i = static_cast<int>(index_at(lattice, right_m, up_m));
-  HeadCandidate head;
-  head.u = i % kWidth;
-  head.v = i / kWidth;
-  head.surface_m = lattice.level_m[static_cast<std::size_t>(i)];
-  head.center_m = head_center(lattice, head.surface_m);
-  return head;
-}
 
 /// A board as wide as a trunk, from its head at 0.8 m down to -1 m, in front of nothing.
 float board(float right_m, float up_m) {
