@@ -1,16 +1,31 @@
 #include "common/config/log.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 
 namespace limbcast::config {
 namespace {
 
 constexpr std::array<const char*, 4> kLevelNames = {"ERROR", "WARNING", "INFO", "DEBUG"};
 
+/// How a line begins to get its level in systemd's journal: sd-daemon(3).
+constexpr std::array<const char*, 4> kJournalPriorities = {"<3>", "<4>", "<6>", "<7>"};
+
 std::string& module_name() {
   static std::string name = "limbcast";
   return name;
+}
+
+/// systemd names device and inode of the journal's stream; stderr may have been redirected since.
+bool stderr_is_journal() {
+  const char* stream = std::getenv("JOURNAL_STREAM");
+  struct stat file {};
+  return stream != nullptr && fstat(STDERR_FILENO, &file) == 0 &&
+         stream == std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
 }
 
 LogLevel& highest_level() {
@@ -30,9 +45,11 @@ void configure_log(const std::string& module, const std::string& level) {
 
 void log(LogLevel level, const std::string& text) {
   if (level > highest_level()) return;
+  static const bool kToJournal = stderr_is_journal();
+  const std::string priority = kToJournal ? kJournalPriorities[static_cast<int>(level)] : "";
   // One call a line: stdio locks the stream, so lines of several threads do not mix.
-  std::fprintf(stderr, "%s %s %s\n", module_name().c_str(), kLevelNames[static_cast<int>(level)],
-               text.c_str());
+  std::fprintf(stderr, "%s%s %s %s\n", priority.c_str(), module_name().c_str(),
+               kLevelNames[static_cast<int>(level)], text.c_str());
 }
 
 }  // namespace limbcast::config

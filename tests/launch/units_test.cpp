@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::launch {
+namespace {
+
+namespace fs = std::filesystem;
+using test::run;
+
+/// The largest exposure that `systemd-analyze security` may find, of 100.
+constexpr const char* kLargestExposure = "25";
+
+/// A root file system with limbcast and as much of systemd as its tools look at.
+class Units : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    root_ = test::temporary_folder("units");
+    for (const char* component : {"Unspecified", "settings"}) {
+      const auto installed =
+          run({"env", "DESTDIR=" + root_.string(), LIMBCAST_CMAKE, "--install", LIMBCAST_BUILD_DIR,
+               "--prefix", "/usr", "--component", component});
+      ASSERT_EQ(installed.exit_code, 0) << installed.output;
+    }
+    for (const char* program : {"lcm-logger", "ip"}) {
+      const auto copied =
+          run({"sh", "-c", "cp -L \"$(command -v $0)\" $1", program, (root_ / "usr/bin").string()});
+      ASSERT_EQ(copied.exit_code, 0) << copied.output;
+    }
+    fs::create_directories(root_ / "etc/systemd/system");
+    run({"sh", "-c", "cp /lib/systemd/system/*.target /lib/systemd/system/*.slice $0",
+         unit_folder().string()});
+  }
+  void SetUp() override {
+    if (run({"systemd-analyze", "--version"}).exit_code != 0)
+      GTEST_SKIP() << "systemd-analyze is missing: apt-get install systemd";
+  }
+  static fs::path unit_folder() { return root_ / "usr/lib/systemd/system"; }
+  static std::vector<std::string> units() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(unit_folder()))
+      if (entry.path().filename().string().rfind("limbcast", 0) == 0)
+        names.push_back(entry.path().filename());
+    return names;
+  }
+  static std::string root_option() { return "--root=" + root_.string(); }
+
+  static fs::path root_;
+};
+
+fs::path Units::root_;
+
+TEST_F(Units, AreSoundForSystemd) {
+  std::vector<std::string> command = {"systemd-analyze", "verify", "--man=no", root_option()};
+  for (const std::string& unit : units()) command.push_back(unit);
+  const auto result = run(command);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, "");
+}
+
+TEST_F(Units, ExposeLittleOfTheHost) {
+  for (const std::string& unit : units()) {
+    if (fs::path(unit).extension() != ".service") continue;
+    const auto result = run({"systemd-analyze", "security", "--offline=true", root_option(),
+                             std::string("--threshold=") + kLargestExposure, unit});
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+  }
+}
+
+TEST_F(Units, AreEnabledForASensorAndStartedWithTheTarget) {
+  const auto result = run({"systemctl", root_option(), "enable", "limbcast.target",
+                           "limbcast-stereo-camera@front", "limbcast-segmenter"});
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const fs::path wants = root_ / "etc/systemd/system";
+  for (const char* link : {"multi-user.target.wants/limbcast.target",
+                           "limbcast.target.wants/limbcast-stereo-camera@front.service",
+                           "limbcast.target.wants/limbcast-segmenter.service"})
+    EXPECT_TRUE(fs::is_symlink(wants / link)) << link;
+}
+
+}  // namespace
+}  // namespace limbcast::launch
