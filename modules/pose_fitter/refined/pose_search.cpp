@@ -155,7 +155,7 @@ PoseCandidate PoseSearch::with_arms(const BodyState& start) {
 }
 
 bool PoseSearch::accept(BodyState body, int iterations, PoseCandidate& pose) {
-  const Real cost = solver_.minimize(body, final_stage(), iterations);
+  const Real cost = solver_.minimize(body, final_stage(), iterations, pose.cost);
   if (cost >= pose.cost) return false;
   pose = {cost, std::move(body)};
   return true;

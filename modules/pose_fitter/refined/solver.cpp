@@ -35,7 +35,7 @@ CostTerms Solver::evaluate_at(const BodyState& body, const FitStage& stage,
   return evaluate(body, observation_, stage, params_, true, workspace_, equations);
 }
 
-Real Solver::minimize(BodyState& body, const FitStage& stage, int iterations) {
+Real Solver::minimize(BodyState& body, const FitStage& stage, int iterations, Real target) {
   evaluate_at(body, stage, *current_);
   const UnknownSet& unknowns = unknowns_of(stage.parts);
   Real damping = kFirstDamping;
@@ -47,11 +47,12 @@ Real Solver::minimize(BodyState& body, const FitStage& stage, int iterations) {
       if (damping > kMostDamping) break;
       continue;
     }
-    const Real gain = (current_->cost - trial_->cost) / current_->cost;
+    const Real gain = current_->cost - trial_->cost;
     body = candidate;
     std::swap(current_, trial_);
     damping = std::max(kLeastDamping, kLessDamping * damping);
-    if (gain < kLeastGain) break;
+    if (gain < kLeastGain * current_->cost) break;
+    if (current_->cost - gain * (iterations - i - 1) > target) break;
   }
   return current_->cost;
 }

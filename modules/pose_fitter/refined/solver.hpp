@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "modules/pose_fitter/refined/cost.hpp"
@@ -11,8 +12,10 @@ class Solver {
  public:
   Solver(const Observation& observation, const RefinedParams& params);
 
-  /// Lowers the cost from `body` on, in at most `iterations` steps; returns the cost.
-  Real minimize(BodyState& body, const FitStage& stage, int iterations);
+  /// Lowers the cost from `body` on, in at most `iterations` steps; returns the cost. Ends early
+  /// where even as much gain in each step left would not bring the cost below `target`.
+  Real minimize(BodyState& body, const FitStage& stage, int iterations,
+                Real target = std::numeric_limits<Real>::infinity());
   /// Cost and normal equations at `body`.
   CostTerms evaluate_at(const BodyState& body, const FitStage& stage, NormalEquations& equations);
 
