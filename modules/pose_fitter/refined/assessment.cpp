@@ -21,7 +21,7 @@ constexpr Real kLeastPointingConfidence = 0.8;
 /// hang.
 constexpr PointingParams kPointingRule{/*max_elbow_bend_deg=*/45.0, /*min_raise_deg=*/45.0};
 /// A body less sure than this is no person.
-constexpr Real kLeastPersonConfidence = 0.3;
+constexpr Real kLeastPersonConfidence = 0.6;
 /// Posterior spreads are too small, as neighbouring points share their errors: measured error
 /// against stated sigma on the tuning half.
 constexpr Real kSigmaScale = 1.6;
@@ -47,20 +47,19 @@ Real pointing_confidence(const BodyState& body, const Evidence& evidence, const 
   const Real sigma_deg = std::max(0.1, arm.sigma_rad / kDegree);
   // The cost is per area of skin, of which a child has less.
   const Real size = kReferenceStatureM / body.stature_m();
-  return logistic(5.17 + 0.29 * std::clamp(arm.gap * size * size, 0.0, kMostGap) +
-                  0.44 * strength(arm.support) - 1.08 * std::log(sigma_deg) -
-                  4.38 * arm.bend_rad / (45.0 * kDegree) -
-                  1.12 * std::log(std::max(0.1, evidence.prior_cost)) -
-                  4.37 * std::min(1.0, evidence.surface_cost / evidence.weight));
+  return logistic(3.73 + 0.24 * std::clamp(arm.gap * size * size, 0.0, kMostGap) +
+                  0.85 * strength(arm.support) - 0.79 * std::log(sigma_deg) -
+                  3.27 * arm.bend_rad / (45.0 * kDegree) -
+                  1.24 * std::log(std::max(0.1, evidence.prior_cost)) -
+                  4.38 * std::min(1.0, evidence.surface_cost / evidence.weight));
 }
 
 /// Furniture fits a body too, but in an odd posture, as well from the back, and without limbs of
 /// its own.
 Real person_confidence(const Evidence& evidence) {
   const Real arms = strength(evidence.arms[0].support) + strength(evidence.arms[1].support);
-  return logistic(6.74 - 3.03 * std::log(std::max(0.1, evidence.prior_cost)) -
-                  0.90 * std::log(evidence.weight) + 1.18 * strength(evidence.flip_gap) +
-                  0.52 * arms + 4.13 * evidence.legs_share);
+  return logistic(3.41 - 2.73 * std::log(std::max(0.1, evidence.prior_cost)) +
+                  1.03 * strength(evidence.flip_gap) + 0.42 * arms + 1.76 * evidence.legs_share);
 }
 
 }  // namespace
