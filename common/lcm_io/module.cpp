@@ -36,13 +36,17 @@ const std::string& url_of_network(const std::string& name, const config::CommonO
 }
 
 std::string summary(const module_status_t& status) {
+  // The age of a recording that is played says when it was made, not how fast the module is.
+  constexpr float kOldestLiveMs = 60'000.0F;
+  std::array<char, 32> age = {"recorded data"};
+  if (status.latency_p50_ms < kOldestLiveMs)
+    std::snprintf(age.data(), age.size(), "age p50 %.1f ms", status.latency_p50_ms);
   std::array<char, 256> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "%.1f frames/s in, %.1f out, age p50 %.1f ms, %lld lost, %lld skipped, %lld malformed",
-      status.rate_in_hz, status.rate_out_hz, status.latency_p50_ms,
-      static_cast<long long>(status.num_lost), static_cast<long long>(status.num_skipped),
-      static_cast<long long>(status.num_malformed));
+  std::snprintf(text.data(), text.size(),
+                "%.1f frames/s in, %.1f out, %s, %lld lost, %lld skipped, %lld malformed",
+                status.rate_in_hz, status.rate_out_hz, age.data(),
+                static_cast<long long>(status.num_lost), static_cast<long long>(status.num_skipped),
+                static_cast<long long>(status.num_malformed));
   return text.data();
 }
 
