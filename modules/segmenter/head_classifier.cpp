@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "modules/segmenter/head_patch.hpp"
@@ -13,13 +14,18 @@ namespace {
 
 }  // namespace
 
-HeadClassifier::HeadClassifier() : HeadClassifier(unpack(kPatchNetwork), unpack(kPersonNetwork)) {}
+HeadClassifier::HeadClassifier() : HeadClassifier(unpack(kPatchNetwork), unpack(kPersonNetwork)) {
+  if (kPatchNetwork.inputs != kPatchSize)
+    throw std::logic_error("head_networks.inc: trained for other patches; run train_heads.sh");
+}
 
 HeadClassifier::HeadClassifier(Network patch, Network person)
     : patch_(std::move(patch)), person_(std::move(person)) {}
 
-std::vector<float> patch_input(const Lattice& lattice, const HeadCandidate& candidate) {
+std::vector<float> patch_input(const Lattice& lattice, const HeadCandidate& candidate,
+                               bool mirrored) {
   PatchPlace place;
+  place.mirrored = mirrored;
   place.u = static_cast<float>(candidate.u);
   place.v = static_cast<float>(candidate.v);
   place.depth_m = lattice.depth_m[lattice.index(candidate.u, candidate.v)];
@@ -52,7 +58,8 @@ std::vector<float> person_input(const Lattice& lattice, const HeadCandidate& hea
 }
 
 float HeadClassifier::head_odds(const Lattice& lattice, const HeadCandidate& candidate) const {
-  return patch_.log_odds(patch_input(lattice, candidate));
+  return 0.5F * (patch_.log_odds(patch_input(lattice, candidate, false)) +
+                 patch_.log_odds(patch_input(lattice, candidate, true)));
 }
 
 float HeadClassifier::person_odds(const Lattice& lattice, const HeadCandidate& head,

@@ -18,7 +18,7 @@ class HeadClassifier {
   HeadClassifier();
   HeadClassifier(Network patch, Network person);
 
-  /// Log odds that the candidate is a head.
+  /// Log odds that the candidate is a head: mean of what its patch and the mirrored one tell.
   float head_odds(const Lattice& lattice, const HeadCandidate& candidate) const;
   /// Log odds that the cluster is a person around this head.
   float person_odds(const Lattice& lattice, const HeadCandidate& head,
@@ -29,7 +29,8 @@ class HeadClassifier {
 };
 
 /// The candidate's patch, as the first network reads it.
-std::vector<float> patch_input(const Lattice& lattice, const HeadCandidate& candidate);
+std::vector<float> patch_input(const Lattice& lattice, const HeadCandidate& candidate,
+                               bool mirrored);
 /// The cluster's figures, scaled to about one, as the second network reads them; needs head.odds.
 std::vector<float> person_input(const Lattice& lattice, const HeadCandidate& head,
                                 const ClusterFigures& figures);

@@ -29,8 +29,11 @@ constexpr std::array<Offset, 9> kInside = {{{0.0F, 0.0F},
                                             {-0.035F, -0.05F},
                                             {0.035F, 0.05F},
                                             {-0.035F, 0.05F}}};
-constexpr int kMinInside = 7;
 constexpr float kInsideStep_m = 0.12F;
+/// Samples that may be neither on the face nor behind something nearer, and samples on the face.
+constexpr int kMaxElsewhere = 2, kMinInside = 5;
+/// What a sample of the face behind something nearer counts.
+constexpr float kHidden = 0.5F;
 /// Around the head's upper half: farther, or nothing.
 constexpr int kRingCount = 11;
 constexpr float kRingRight_m = 0.155F, kRingUp_m = 0.175F, kRingStep_m = 0.13F;
@@ -58,7 +61,9 @@ std::array<Offset, kRingCount> make_ring() {
 class Probe {
  public:
   explicit Probe(const Lattice& lattice)
-      : lattice_(lattice), right_(-lattice.up.y(), lattice.up.x()) {}
+      : lattice_(lattice),
+        right_(-lattice.up.y(), lattice.up.x()),
+        left_px_(lattice.wraps_around ? static_cast<float>(lattice.width) : 0.0F) {}
 
   void move_to(int u, int v, float depth_m) {
     center_ = Eigen::Vector2f(static_cast<float>(u) + 0.5F, static_cast<float>(v) + 0.5F);
@@ -68,10 +73,11 @@ class Probe {
   float depth_m(const Offset& offset) const {
     const Eigen::Vector2f at =
         center_ + px_per_m_ * (offset.right_m * right_ + offset.up_m * lattice_.up);
-    int u = static_cast<int>(std::floor(at.x()));
-    const int v = static_cast<int>(std::floor(at.y()));
-    if (lattice_.wraps_around) u = (u + lattice_.width) % lattice_.width;
-    if (u < 0 || v < 0 || u >= lattice_.width || v >= lattice_.height) return -1.0F;
+    if (at.y() < 0.0F || (at.x() < 0.0F && !lattice_.wraps_around)) return -1.0F;
+    int u = static_cast<int>(at.x() + left_px_);
+    const int v = static_cast<int>(at.y());
+    if (lattice_.wraps_around) u %= lattice_.width;
+    if (u >= lattice_.width || v >= lattice_.height) return -1.0F;
     return lattice_.depth_m[lattice_.index(u, v)];
   }
 
@@ -79,6 +85,7 @@ class Probe {
   const Lattice& lattice_;
   Eigen::Vector2f right_, center_;
   float px_per_m_ = 0.0F;
+  float left_px_;  ///< makes columns left of the first of a panorama positive
 };
 
 float ring_score(const Probe& probe, float z_m) {
@@ -113,16 +120,20 @@ float torso_score(const Probe& probe, float z_m) {
 
 /// Score of a head in the middle of the probe; 0 where there is none.
 float template_score(const Probe& probe, float z_m) {
-  int inside = 0;
+  int inside = 0, hidden = 0, elsewhere = 0;
   for (const Offset& offset : kInside) {
     const float q = probe.depth_m(offset);
-    inside += (q > 0.0F && std::abs(q - z_m) < kInsideStep_m) ? 1 : 0;
+    if (q <= 0.0F || q > z_m + kInsideStep_m)
+      ++elsewhere;
+    else
+      ++(q < z_m - kInsideStep_m ? hidden : inside);
+    if (elsewhere > kMaxElsewhere) return 0.0F;
   }
   if (inside < kMinInside) return 0.0F;
   const float ring = ring_score(probe, z_m);
   if (ring < kMinRing) return 0.0F;
-  return static_cast<float>(inside) / static_cast<float>(kInside.size()) +
-         ring / static_cast<float>(kRingCount) +
+  const float face = static_cast<float>(inside) + kHidden * static_cast<float>(hidden);
+  return face / static_cast<float>(kInside.size()) + ring / static_cast<float>(kRingCount) +
          kTorsoWeight * std::min(torso_score(probe, z_m), kTorsoEnough);
 }
 

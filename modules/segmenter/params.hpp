@@ -129,11 +129,11 @@ struct ClassifierParams {
   float min_head_odds = -1.0F;
   /// Log odds by the same of a head that needs no cluster of a person's shape: people behind
   /// others, at the image's edge, on sofas.
-  float sure_head_odds = 1.0F;
+  float sure_head_odds = 0.5F;
   /// Lowest log odds of a skin-coloured part that the template does not take for a head.
   float min_skin_head_odds = 0.0F;
   /// Lowest log odds, by its cluster, of a person. Higher: fewer false people, more missed.
-  float min_person_odds = 0.0F;
+  float min_person_odds = -1.0F;
   /// Seeds nearer than this may be on one person's head and body [m]: head to elbow or breast.
   float rival_m = 0.60F;
   /// Log odds against two people whose heads are that near.

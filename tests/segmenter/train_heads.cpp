@@ -31,7 +31,7 @@ constexpr float kSameHead_m = 0.10F, kOtherPlace_m = 0.15F;
 /// The same for whole people: a cluster from a seed beside the head may be a good one.
 constexpr float kOtherPerson_m = 0.24F;
 /// Patches taken of each head and of each other place, all but the first varied.
-constexpr int kHeadPatches = 6, kOtherPatches = 3;
+constexpr int kHeadPatches = 5, kOtherPatches = 2;
 
 using Random = std::mt19937;
 
@@ -257,7 +257,7 @@ int main(int argc, char** argv) {
   for (const Scene& scene : scenes) add_patch_examples(scene, random, folds[scene.fold].patches);
   // The second network must see the first one's odds as they are on frames that it was not trained
   // on.
-  TrainingParams patch_params;
+  const TrainingParams patch_params;
   const Network unused{};
   const Network first_patch = train(folds[0].patches, patch_params);
   const HeadClassifier first(first_patch, unused);

@@ -1,0 +1,54 @@
+#!/bin/bash
+# Trains the head classifier from nothing: simulates people for each sensor, trains on them and on the
+# recordings of bodies D1 to D3, and writes modules/segmenter/head_networks.inc. Build again afterwards.
+# Usage: tests/segmenter/train_heads.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
+#   SIMULATED_DIR   2000 simulated frames, 1.2 GB, about half an hour on two cores; sets that are there stay
+#   DATA_DIR        the folder of stereo_dev, laser_dev and rgbd_pointing
+#   BIN_DIR         default: build/release/bin
+# Run it after the matcher, the lattice, the template or the growing changed.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
+folders=()
+
+# simulate NAME SET SENSOR FRAMES SEED [OPTION...]
+simulate() {
+  local folder=$simulated/$1
+  folders+=("$folder")
+  [ -e "$folder/timestamps.csv" ] && return
+  echo "simulating $folder"
+  "$bin/limbcast-simulate" --output "$folder" --set "$2" --sensor "$3" --frames "$4" --seed "$5" "${@:6}"
+}
+
+# Pairs, matched by the reconstructor as it is.
+simulate s_multi multi stereo 120 101 --child-share 0.15
+simulate s_multi2 multi stereo 150 204 --child-share 0.1
+simulate s_general general stereo 100 102 --child-share 0.2
+simulate s_general2 general stereo 150 210 --child-share 0.15
+simulate s_pointing pointing stereo 80 104 --child-share 0.1
+simulate s_sequence sequence stereo 60 111
+# Arms beside the head are what is hardest.
+simulate s_raise1 general stereo 25 203 --posture raise1
+simulate s_raise2 general stereo 30 201 --posture raise2 --child-share 0.1
+simulate s_behindhead general stereo 25 202 --posture behindhead
+simulate s_nohuman nohuman stereo 100 103
+simulate s_nohuman2 nohuman stereo 120 205
+# What other matchers would give: noise, swollen silhouettes and holes of many kinds.
+simulate t_multi multi stereo-depth 120 112 --child-share 0.15
+simulate t_general general stereo-depth 80 113
+simulate t_nohuman nohuman stereo-depth 80 114
+simulate d_multi multi depth 80 105 --child-share 0.15 --color
+simulate d_multi2 multi depth 80 206 --color --max-distance-m 3.5
+simulate d_general general depth 60 107 --color
+simulate d_nohuman nohuman depth 60 109 --color
+simulate d_nohuman2 nohuman depth 80 207 --color
+simulate l_multi multi laser 60 106 --child-share 0.15
+simulate l_multi2 multi laser 80 209
+simulate l_general general laser 60 108
+simulate l_nohuman nohuman laser 60 110
+simulate l_nohuman2 nohuman laser 80 208
+
+recorded=()
+for set in general pointing multi nohuman sequence hd distorted; do recorded+=("$data/stereo_dev/$set"); done
+"$bin/limbcast-train-heads" modules/segmenter/head_networks.inc "${folders[@]}" "${recorded[@]}" \
+  "$data/laser_dev" "$data/rgbd_pointing"
