@@ -18,10 +18,10 @@ namespace po = boost::program_options;
 
 /// Sections a robot's configuration file may hold; a program reads its own and checks the names of
 /// the rest.
-constexpr std::array<std::string_view, 14> kModuleNames = {
+constexpr std::array<std::string_view, 15> kModuleNames = {
     "stereo_camera", "depth_camera", "laser_scanner", "reconstructor", "segmenter",
     "pose_fitter",   "tracker",      "viewer",        "replay",        "export_poses",
-    "evaluate",      "simulate",     "status",        "doctor"};
+    "evaluate",      "simulate",     "status",        "doctor",        "log"};
 
 std::string with_hyphens(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
@@ -141,6 +141,11 @@ void Parser::add_positional(const std::string& name, std::string& target, const 
   positionals_.push_back({name, help, &target, name.front() != '['});
 }
 
+void Parser::add_positional(const std::string& name, std::vector<std::string>& targets,
+                            const std::string& help) {
+  positionals_.push_back({name, help, nullptr, true, &targets});
+}
+
 bool Parser::parse(int argc, const char* const* argv) { return parse(argc, argv, std::cout); }
 
 bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
@@ -199,11 +204,15 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
            false);
     on_command_line.push_back(option.string_key);
   }
-  if (positional_values.size() > positionals_.size())
+  const bool takes_all = !positionals_.empty() && positionals_.back().targets != nullptr;
+  if (positional_values.size() > positionals_.size() && !takes_all)
     throw UsageError("command line: unexpected argument '" +
                      positional_values[positionals_.size()] + "'; see " + program_ + " --help");
   for (std::size_t i = 0; i < positionals_.size(); ++i) {
-    if (i < positional_values.size())
+    if (i < positional_values.size() && positionals_[i].targets != nullptr)
+      positionals_[i].targets->assign(positional_values.begin() + static_cast<std::ptrdiff_t>(i),
+                                      positional_values.end());
+    else if (i < positional_values.size())
       *positionals_[i].target = positional_values[i];
     else if (positionals_[i].required)
       throw UsageError("command line: " + positionals_[i].name + " is missing; see " + program_ +

@@ -83,6 +83,9 @@ class Parser {
   void add(Section& section, bool own = true);
   /// A required ("IN.log") or optional ("[FOLDER]") argument without a key.
   void add_positional(const std::string& name, std::string& target, const std::string& help);
+  /// One or more arguments ("IN.log..."): all that follow the others. The last to be added.
+  void add_positional(const std::string& name, std::vector<std::string>& targets,
+                      const std::string& help);
 
   /// Fills all targets. Prints and returns false after --help or --version (then exit with 0).
   /// Throws UsageError naming file, key, value and allowed range.
@@ -96,6 +99,7 @@ class Parser {
     std::string name, help;
     std::string* target;
     bool required;
+    std::vector<std::string>* targets = nullptr;  ///< instead of `target`: all the rest
   };
   struct Bound {
     Section* section;

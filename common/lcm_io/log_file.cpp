@@ -1,6 +1,7 @@
 #include "common/lcm_io/log_file.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,23 @@ namespace {
 
 /// First bytes of every event in an LCM log.
 constexpr unsigned char kSyncWord[] = {0xED, 0xA1, 0xDA, 0x01};
+
+/// Bytes of an event before its channel and data: sync word, number, time, two lengths.
+constexpr std::int64_t kHeaderBytes = 28;
+
+/// Where the next sync word begins, from `from` on; `size` where there is none.
+std::int64_t find_sync_word(std::FILE* file, std::int64_t from, std::int64_t size) {
+  std::fseek(file, static_cast<long>(from), SEEK_SET);
+  std::size_t matched = 0;
+  for (std::int64_t at = from; at < size; ++at) {
+    const int byte = std::fgetc(file);
+    if (byte == EOF) return size;
+    // Its first byte does not come again in it, so that a mismatch starts over at once.
+    matched = byte == kSyncWord[matched] ? matched + 1 : byte == kSyncWord[0] ? 1 : 0;
+    if (matched == sizeof(kSyncWord)) return at + 1 - static_cast<std::int64_t>(matched);
+  }
+  return size;
+}
 
 void check_is_log(const std::string& path) {
   if (!std::filesystem::is_regular_file(path))
@@ -35,14 +53,25 @@ LogReader::LogReader(const std::string& path) {
 }
 
 std::optional<LogEvent> LogReader::next() {
-  const lcm::LogEvent* event = file_->readNextEvent();
-  if (event == nullptr) {
-    torn_bytes_ = size_bytes_ - position_bytes_;
-    return std::nullopt;
+  std::FILE* file = file_->getFilePtr();
+  for (std::int64_t from = position_bytes_; from < size_bytes_;) {
+    const lcm::LogEvent* event = file_->readNextEvent();
+    if (event != nullptr) {
+      const auto end = static_cast<std::int64_t>(std::ftell(file));
+      const auto length =
+          kHeaderBytes + static_cast<std::int64_t>(event->channel.size()) + event->datalen;
+      damaged_bytes_ += end - length - position_bytes_;
+      position_bytes_ = end;
+      const auto* data = static_cast<const std::uint8_t*>(event->data);
+      return LogEvent{
+          event->timestamp, event->channel, {data, data + event->datalen}, event->eventnum};
+    }
+    // LCM gives up at the first event that is not whole; the next one may begin behind its header.
+    from = find_sync_word(file, from + 1, size_bytes_);
+    std::fseek(file, static_cast<long>(from), SEEK_SET);
   }
-  position_bytes_ = static_cast<std::int64_t>(std::ftell(file_->getFilePtr()));
-  const auto* data = static_cast<const std::uint8_t*>(event->data);
-  return LogEvent{event->timestamp, event->channel, {data, data + event->datalen}};
+  torn_bytes_ = size_bytes_ - position_bytes_;
+  return std::nullopt;
 }
 
 LogWriter::LogWriter(const std::string& path)
@@ -63,6 +92,11 @@ void LogWriter::write(const LogEvent& event) {
   out.datalen = static_cast<std::int32_t>(event.data.size());
   out.data = const_cast<std::uint8_t*>(event.data.data());
   if (lcm_eventlog_write_event(log_, &out) != 0) fail();
+}
+
+void LogWriter::copy(const LogEvent& event) {
+  log_->eventcount = event.number;
+  write(event);
 }
 
 void LogWriter::close() {

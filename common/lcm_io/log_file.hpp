@@ -14,6 +14,8 @@ struct LogEvent {
   std::int64_t utime = 0;  ///< when it was logged [us]
   std::string channel;
   std::vector<std::uint8_t> data;
+  std::int64_t number =
+      0;  ///< the logger's count of events; LogWriter counts anew, copy() does not
 };
 
 /// Reads an lcm-logger file from its begin to its end.
@@ -22,17 +24,19 @@ class LogReader {
   /// Throws config::UsageError where the file is missing, empty, or no LCM log.
   explicit LogReader(const std::string& path);
 
-  /// The next message; nothing at the end or where the file is torn.
+  /// The next message; nothing at the end. What is damaged is passed over.
   std::optional<LogEvent> next();
 
   /// After the last message: bytes that follow it but hold no whole message (a torn log), else 0.
   std::int64_t torn_bytes() const { return torn_bytes_; }
+  /// Bytes between messages so far that hold none.
+  std::int64_t damaged_bytes() const { return damaged_bytes_; }
   std::int64_t size_bytes() const { return size_bytes_; }
   std::int64_t position_bytes() const { return position_bytes_; }
 
  private:
   std::unique_ptr<lcm::LogFile> file_;
-  std::int64_t size_bytes_ = 0, position_bytes_ = 0, torn_bytes_ = 0;
+  std::int64_t size_bytes_ = 0, position_bytes_ = 0, torn_bytes_ = 0, damaged_bytes_ = 0;
 };
 
 /// Writes an LCM log. What was written stays readable when the program ends early.
@@ -46,6 +50,8 @@ class LogWriter {
 
   /// Throws std::runtime_error with the reason (disk full ...).
   void write(const LogEvent& event);
+  /// The same with the event's own number.
+  void copy(const LogEvent& event);
   template <class Message>
   void write(std::int64_t utime, const std::string& channel, const Message& message) {
     LogEvent event{utime, channel, std::vector<std::uint8_t>(message.getEncodedSize())};

@@ -52,6 +52,7 @@ class Replay {
     writer.close();
     summary_.interrupted = lcm_io::stop_requested();
     summary_.torn_bytes = reader.torn_bytes();
+    summary_.damaged_bytes = reader.damaged_bytes();
     return summary_;
   }
 

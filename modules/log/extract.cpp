@@ -1,0 +1,211 @@
+#include "modules/log/extract.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limbcast/body_poses_t.hpp>
+#include <limbcast/depth_images_t.hpp>
+#include <limbcast/point_cloud_t.hpp>
+#include <limbcast/stereo_calibration_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "common/config/options.hpp"
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/calibration_codec.hpp"
+#include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/depth_images_codec.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/lcm_io/stamp_codec.hpp"
+#include "common/pose_json/pose_lines.hpp"
+#include "modules/log/extracted_files.hpp"
+#include "modules/log/message_types.hpp"
+
+namespace limbcast::logs {
+namespace {
+
+using config::UsageError;
+using lcm_io::decode;
+using lcm_io::LogEvent;
+
+const std::set<std::string>& types_of(Extracted what) {
+  static const std::map<Extracted, std::set<std::string>> types = {
+      {Extracted::kImages, {stereo_images_t::getTypeName(), depth_images_t::getTypeName()}},
+      {Extracted::kClouds, {point_cloud_t::getTypeName()}},
+      {Extracted::kPoses, {body_poses_t::getTypeName()}}};
+  return types.at(what);
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw UsageError(folder + ": cannot be made (" + error.message() + ")");
+}
+
+/// First pass: which sensor's frames are meant.
+std::string chosen_sensor(const ExtractOptions& options) {
+  std::set<std::string> sensors;
+  lcm_io::LogReader reader(options.in);
+  while (const auto event = reader.next()) {
+    if (!options.channels.takes(event->channel)) continue;
+    const MessageSummary summary = summarize(*event);
+    if (summary.stamp && types_of(options.what).count(summary.type) > 0)
+      sensors.insert(summary.stamp->sensor);
+  }
+  if (!options.sensor.empty() && sensors.count(options.sensor) > 0) return options.sensor;
+  std::string names;
+  for (const std::string& sensor : sensors) names += (names.empty() ? "" : ", ") + sensor;
+  if (sensors.empty())
+    throw UsageError(options.in +
+                     ": holds nothing of the kind; limbcast-log info shows what it has");
+  if (!options.sensor.empty())
+    throw UsageError(options.in + ": holds nothing of sensor '" + options.sensor + "', but of " +
+                     names);
+  if (sensors.size() > 1)
+    throw UsageError(options.in + ": holds several sensors; choose one with --sensor: " + names);
+  return *sensors.begin();
+}
+
+/// Writes the frames of one sensor into a folder.
+class FrameWriter {
+ public:
+  FrameWriter(const ExtractOptions& options, std::string sensor)
+      : options_(options), sensor_(std::move(sensor)) {
+    make_folder(options.folder);
+  }
+
+  void take(const LogEvent& event) {
+    const MessageSummary summary = summarize(event);
+    if (summary.type == stereo_calibration_t::getTypeName()) return take_calibration(event);
+    if (!summary.stamp || summary.stamp->sensor != sensor_) return;
+    if (event.channel == options_.truth_channel && summary.type == body_poses_t::getTypeName())
+      return take_truth(event);
+    if (types_of(options_.what).count(summary.type) == 0) return;
+    const Stamp stamp = lcm_io::from_message(*summary.stamp);
+    if (written_.count(stamp.utime) > 0) return;  // heard by two loggers
+    write(event, summary.type, options_.folder + "/" + frame_name(stamp));
+    written_.insert(stamp.utime);
+    stamps_.push_back(stamp);
+  }
+
+  std::int64_t finish() {
+    std::sort(stamps_.begin(), stamps_.end(),
+              [](const Stamp& a, const Stamp& b) { return a.utime < b.utime; });
+    write_timestamps(options_.folder + "/timestamps.csv", stamps_);
+    for (const auto& [utime, truth] : truths_)
+      if (written_.count(utime) > 0)
+        write_truth(options_.folder + "/" + frame_name(truth.stamp) + "_gt.json", truth);
+    return static_cast<std::int64_t>(stamps_.size());
+  }
+
+ private:
+  void take_calibration(const LogEvent& event) {
+    const auto message = decode<stereo_calibration_t>(event.data);
+    if (has_calibration_ || options_.what != Extracted::kImages || message.sensor != sensor_)
+      return;
+    write_calibration(calibration_path(), lcm_io::from_message(message));
+    has_calibration_ = true;
+  }
+
+  void take_truth(const LogEvent& event) {
+    const BodyPoses truth = lcm_io::from_message(decode<body_poses_t>(event.data));
+    truths_[truth.stamp.utime] = truth;
+  }
+
+  void write(const LogEvent& event, const std::string& type, const std::string& path) {
+    if (type == stereo_images_t::getTypeName()) {
+      const auto message = decode<stereo_images_t>(event.data);
+      write_picture(path + "_left", message.left);
+      write_picture(path + "_right", message.right);
+    } else if (type == depth_images_t::getTypeName()) {
+      write_depth(decode<depth_images_t>(event.data), path);
+    } else {
+      write_cloud(path + ".pcd", lcm_io::from_message(decode<point_cloud_t>(event.data)));
+    }
+  }
+
+  void write_depth(const depth_images_t& message, const std::string& path) {
+    if (!has_calibration_)
+      write_calibration(calibration_path(), lcm_io::from_message(message).calibration);
+    has_calibration_ = true;
+    if (message.color.width > 0) write_picture(path + "_color", message.color);
+    write_picture(path + "_depth", message.depth);
+  }
+
+  std::string calibration_path() const { return options_.folder + "/calibration.yml"; }
+
+  const ExtractOptions& options_;
+  std::string sensor_;
+  bool has_calibration_ = false;
+  std::set<std::int64_t> written_;
+  std::vector<Stamp> stamps_;
+  std::map<std::int64_t, BodyPoses> truths_;
+};
+
+/// Writes poses as lines, a file a channel.
+class PoseWriter {
+ public:
+  explicit PoseWriter(const ExtractOptions& options) : options_(options) {
+    make_folder(options.folder);
+  }
+
+  void take(const LogEvent& event) {
+    if (summarize(event).type != body_poses_t::getTypeName()) return;
+    const BodyPoses poses = lcm_io::from_message(decode<body_poses_t>(event.data));
+    if (!options_.sensor.empty() && poses.stamp.sensor != options_.sensor) return;
+    std::ofstream& file = files_[event.channel];
+    if (!file.is_open()) file.open(options_.folder + "/" + event.channel + ".jsonl");
+    file << pose_json::to_line(poses) << '\n';
+    if (!file) throw std::runtime_error(options_.folder + ": cannot write poses there");
+    ++lines_;
+  }
+
+  std::int64_t finish() {
+    for (auto& [channel, file] : files_) {
+      file.close();
+      if (!file) throw std::runtime_error(options_.folder + ": cannot write poses there");
+    }
+    if (lines_ == 0) throw UsageError(options_.in + ": holds no poses; limbcast-replay adds them");
+    return lines_;
+  }
+
+ private:
+  const ExtractOptions& options_;
+  std::map<std::string, std::ofstream> files_;
+  std::int64_t lines_ = 0;
+};
+
+template <class Writer>
+ExtractSummary extract_with(Writer& writer, const ExtractOptions& options) {
+  ExtractSummary summary;
+  lcm_io::LogReader reader(options.in);
+  while (const auto event = reader.next()) {
+    if (!options.channels.takes(event->channel)) continue;
+    try {
+      writer.take(*event);
+    } catch (const lcm_io::MessageError&) {
+      ++summary.malformed;
+    }
+  }
+  summary.frames = writer.finish();
+  summary.torn_bytes = reader.torn_bytes();
+  summary.damaged_bytes = reader.damaged_bytes();
+  return summary;
+}
+
+}  // namespace
+
+ExtractSummary extract(const ExtractOptions& options) {
+  if (options.what == Extracted::kPoses) {
+    PoseWriter writer(options);
+    return extract_with(writer, options);
+  }
+  FrameWriter writer(options, chosen_sensor(options));
+  return extract_with(writer, options);
+}
+
+}  // namespace limbcast::logs

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "modules/log/channel_filter.hpp"
+
+namespace limbcast::logs {
+
+enum class Extracted { kImages, kClouds, kPoses };
+
+struct ExtractOptions {
+  std::string in, folder;
+  Extracted what = Extracted::kImages;
+  std::string sensor;  ///< only of this one; empty: of the only one
+  std::string truth_channel = "GROUND_TRUTH";
+  ChannelFilter channels;
+};
+
+struct ExtractSummary {
+  std::int64_t frames = 0;     ///< written
+  std::int64_t malformed = 0;  ///< messages left out
+  std::int64_t torn_bytes = 0, damaged_bytes = 0;
+};
+
+/// Writes messages of a log as the folders that limbcast's sources read, each frame named by its
+/// utime:
+/// - images: NAME_left, NAME_right or NAME_color, NAME_depth (JPEG and PNG as they are in the log,
+///   raw ones as PNG) and calibration.yml;
+/// - clouds: NAME.pcd;
+/// with timestamps.csv (gravity where a recording or an option told it) and, where the log has the
+/// truth, NAME_gt.json;
+/// - poses: CHANNEL.jsonl, lines as limbcast-export-poses writes them.
+///
+/// Throws config::UsageError where IN is no log, holds nothing of the kind, or images or clouds of
+/// several sensors and none is chosen; std::runtime_error where a file cannot be written.
+ExtractSummary extract(const ExtractOptions& options);
+
+}  // namespace limbcast::logs

@@ -1,0 +1,192 @@
+#include "modules/log/extracted_files.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/core/eigen.hpp>
+#include <stdexcept>
+
+#include "common/camera/encoded_image.hpp"
+#include "common/lcm_io/image_codec.hpp"
+
+namespace limbcast::logs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_bytes(const std::string& path, const void* bytes, std::size_t size) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_bytes(path, text.data(), text.size());
+}
+
+cv::FileStorage opened(const std::string& path) {
+  cv::FileStorage file(path, cv::FileStorage::WRITE);
+  if (!file.isOpened()) throw std::runtime_error(path + ": cannot be written");
+  return file;
+}
+
+cv::Mat camera_matrix(const PinholeCamera& camera) {
+  return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+}
+
+cv::Mat distortion(const LensCalibration& lens) {
+  return lens.distortion.empty() ? cv::Mat(cv::Mat::zeros(1, 5, CV_64F))
+                                 : cv::Mat(lens.distortion, true).t();
+}
+
+template <class Matrix>
+cv::Mat to_cv(const Matrix& matrix) {
+  cv::Mat result;
+  cv::eigen2cv(matrix, result);
+  return result;
+}
+
+void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
+  file << "image_width" << camera.width << "image_height" << camera.height;
+}
+
+void write_mounting(cv::FileStorage& file, const Mounting& mounting) {
+  if (mounting.down) file << "down" << to_cv(*mounting.down);
+  if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
+}
+
+Json vector_json(const Eigen::Vector3f& vector) {
+  // To 0.1 mm, which no sensor resolves.
+  constexpr double kSteps = 1e4;
+  Json json = Json::array();
+  for (int i = 0; i < 3; ++i) json.push_back(std::round(vector[i] * kSteps) / kSteps);
+  return json;
+}
+
+Json direction_json(const Eigen::Vector3f& direction) {
+  return {direction.x(), direction.y(), direction.z()};
+}
+
+Json pointing_json(const Pointing& pointing) {
+  Json json = {{"side", pointing.side == Side::kLeft ? "left" : "right"},
+               {"direction", direction_json(pointing.direction)},
+               {"arm_visible", pointing.confidence > 0.5F}};
+  if (!pointing.forearm.isZero()) json["direction_elbow_wrist"] = direction_json(pointing.forearm);
+  if (!pointing.head_hand.isZero())
+    json["direction_head_hand"] = direction_json(pointing.head_hand);
+  return json;
+}
+
+Json person_json(const BodyPose& person) {
+  Json json = {{"id", person.id},
+               {"joints", Json::object()},
+               {"visible", Json::object()},
+               {"pointing", nullptr}};
+  for (int i = 0; i < kJointCount; ++i) {
+    const JointEstimate& joint = person.joints[i];
+    if (!joint.valid) continue;
+    const std::string name(kJointNames[i]);
+    json["joints"][name] = vector_json(joint.position_m);
+    json["visible"][name] = joint.confidence > 0.5F;
+  }
+  if (!person.pointing.empty()) json["pointing"] = pointing_json(person.pointing.front());
+  return json;
+}
+
+/// Who told gravity knew it, rather than found or supposed it.
+bool tells_gravity(const Gravity& gravity) {
+  return gravity.source == GravitySource::kRecording || gravity.source == GravitySource::kOption;
+}
+
+}  // namespace
+
+void write_picture(const std::string& path, const image_t& image) {
+  if (image.encoding == image_t::JPEG)
+    return write_bytes(path + ".jpg", image.data.data(), image.data.size());
+  if (image.encoding == image_t::PNG)
+    return write_bytes(path + ".png", image.data.data(), image.data.size());
+  const EncodedImage encoded = encode_png(lcm_io::from_message(image));
+  write_bytes(path + ".png", encoded.bytes.data(), encoded.bytes.size());
+}
+
+void write_cloud(const std::string& path, const Cloud& cloud) {
+  const bool colored = !cloud.colors.empty();
+  std::string records;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.points_m.size(); ++i) {
+    if (cloud.is_hole(i)) continue;
+    ++count;
+    records.append(reinterpret_cast<const char*>(cloud.points_m[i].data()), 3 * sizeof(float));
+    if (!colored) continue;
+    const Bgr& color = cloud.colors[i];
+    const char packed[4] = {static_cast<char>(color.b), static_cast<char>(color.g),
+                            static_cast<char>(color.r), 0};
+    records.append(packed, sizeof(packed));
+  }
+  const std::string number = std::to_string(count);
+  const std::string fields = colored
+                                 ? "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
+                                 : "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+  write_text(path, "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " +
+                       number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number +
+                       "\nDATA binary\n" + records);
+}
+
+void write_calibration(const std::string& path, const StereoCalibration& calibration) {
+  cv::FileStorage file = opened(path);
+  write_size(file, calibration.left.camera);
+  file << "K1" << camera_matrix(calibration.left.camera) << "D1" << distortion(calibration.left);
+  file << "K2" << camera_matrix(calibration.right.camera) << "D2" << distortion(calibration.right);
+  file << "R" << to_cv(calibration.R) << "T" << to_cv(calibration.T);
+  if (const auto& rectification = calibration.rectification) {
+    file << "R1" << to_cv(rectification->R1) << "R2" << to_cv(rectification->R2);
+    file << "P1" << to_cv(rectification->P1) << "P2" << to_cv(rectification->P2);
+  }
+  write_mounting(file, calibration.mounting);
+}
+
+void write_calibration(const std::string& path, const DepthCalibration& calibration) {
+  cv::FileStorage file = opened(path);
+  write_size(file, calibration.color.camera);
+  file << "camera_matrix" << camera_matrix(calibration.color.camera);
+  file << "distortion_coefficients" << distortion(calibration.color);
+  file << "depth_scale" << calibration.depth_scale_m;
+  write_mounting(file, calibration.mounting);
+}
+
+void write_truth(const std::string& path, const BodyPoses& truth) {
+  Json json = {{"utime", truth.stamp.utime}};
+  if (truth.stamp.gravity.source == GravitySource::kRecording)
+    json["down"] = direction_json(truth.stamp.gravity.down);
+  if (truth.stamp.gravity.sensor_height_m)
+    json["camera_height"] = *truth.stamp.gravity.sensor_height_m;
+  json["persons"] = Json::array();
+  for (const BodyPose& person : truth.persons) json["persons"].push_back(person_json(person));
+  write_text(path, json.dump(1) + "\n");
+}
+
+void write_timestamps(const std::string& path, const std::vector<Stamp>& stamps) {
+  bool all_tell_gravity = true;
+  for (const Stamp& stamp : stamps)
+    all_tell_gravity = all_tell_gravity && tells_gravity(stamp.gravity);
+  std::string text = all_tell_gravity ? "name,utime,down_x,down_y,down_z\n" : "name,utime\n";
+  for (const Stamp& stamp : stamps) {
+    text += frame_name(stamp) + ',' + std::to_string(stamp.utime);
+    const Eigen::Vector3f& down = stamp.gravity.down;
+    char gravity[64];
+    std::snprintf(gravity, sizeof(gravity), ",%.6f,%.6f,%.6f", down.x(), down.y(), down.z());
+    text += (all_tell_gravity ? gravity : "") + std::string("\n");
+  }
+  write_text(path, text);
+}
+
+std::string frame_name(const Stamp& stamp) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "%016lld", static_cast<long long>(stamp.utime));
+  return name;
+}
+
+}  // namespace limbcast::logs

@@ -1,0 +1,143 @@
+#include "modules/log/cut.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/config/options.hpp"
+#include "tests/log/logs.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::logs {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Cut : public ::testing::Test {
+ protected:
+  Cut() {
+    write_ten_frames(in_);
+    options_.in = in_;
+    options_.out = out_;
+  }
+  const std::string folder_ = test::temporary_folder("log_cut");
+  const std::string in_ = folder_ + "/in.log", out_ = folder_ + "/out.log";
+  CutOptions options_;
+};
+
+TEST_F(Cut, OfEverythingIsTheSameFileByteForByte) {
+  const CopySummary summary = cut(options_);
+  EXPECT_EQ(summary.events_kept, 21);
+  EXPECT_EQ(bytes_of(out_), bytes_of(in_));
+}
+
+TEST_F(Cut, ByTimeKeepsBytesTimesNumbersAndOrder) {
+  options_.from_s = 0.3;
+  options_.to_s = 0.5;
+  options_.keep_calibration = false;
+  cut(options_);
+  const auto before = events_in(in_), after = events_in(out_);
+  ASSERT_EQ(after.size(), 5U) << "frames 3, 4, 5 and the foreign messages between";
+  for (std::size_t i = 0; i < after.size(); ++i) EXPECT_TRUE(same(after[i], before[7 + i])) << i;
+}
+
+TEST_F(Cut, ByFramesKeepsWhatStandsBetweenThem) {
+  options_.from_frame = 3;
+  options_.to_frame = 5;
+  options_.keep_calibration = false;
+  cut(options_);
+  const auto before = events_in(in_), after = events_in(out_);
+  ASSERT_EQ(after.size(), 5U);
+  EXPECT_TRUE(same(after.front(), before[7]));
+  EXPECT_TRUE(same(after.back(), before[11]));
+}
+
+TEST_F(Cut, KeepsTheLastCalibrationBeforeThePart) {
+  options_.from_s = 0.8;
+  cut(options_);
+  const auto before = events_in(in_), after = events_in(out_);
+  EXPECT_TRUE(same(after.front(), before.front()));
+  EXPECT_TRUE(same(after[1], before[17]));
+}
+
+TEST_F(Cut, ByChannelsTakesRegularExpressions) {
+  options_.channels = ChannelFilter("BODY.*|FOREIGN", "FOR.*");
+  EXPECT_EQ(cut(options_).events_kept, 10);
+  for (const auto& event : events_in(out_)) EXPECT_EQ(event.channel, "BODY_POSES");
+}
+
+TEST_F(Cut, OfATornAndDamagedLogKeepsAllWholeEvents) {
+  std::vector<char> bytes = bytes_of(in_);
+  const std::size_t event_bytes = 28 + 7 + 9;  // the last one, foreign
+  bytes.resize(bytes.size() - event_bytes / 2);
+  // Lengths of the event that begins behind the calibration.
+  const std::size_t second = 28 + 18 + events_in(in_)[0].data.size();
+  for (std::size_t i = 0; i < 4; ++i) bytes[second + 20 + i] = '\x7f';
+  write_bytes(in_, bytes);
+  const CopySummary summary = cut(options_);
+  EXPECT_EQ(summary.events_kept, 19) << "21 less the damaged and the torn one";
+  EXPECT_EQ(summary.torn_bytes, static_cast<std::int64_t>(event_bytes - event_bytes / 2));
+  EXPECT_EQ(summary.damaged_bytes,
+            static_cast<std::int64_t>(28 + 10 + poses_of_frame(0).getEncodedSize()));
+}
+
+TEST_F(Cut, ThatKeepsNothingOrOverwritesItsInputIsRefused) {
+  options_.from_s = 100.0;
+  EXPECT_THROW(cut(options_), config::UsageError);
+  EXPECT_FALSE(std::filesystem::exists(out_));
+  options_.out = in_;
+  EXPECT_THROW(cut(options_), config::UsageError);
+  EXPECT_THROW(ChannelFilter("("), config::UsageError);
+}
+
+TEST_F(Cut, WorksFromTheCommandLine) {
+  const auto run = test::run({test::program("limbcast-log"), "cut", in_, out_, "--from-frame", "2",
+                              "--to-frame=3", "--keep-calibration=false"});
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("3 of 21 events"));
+  EXPECT_EQ(test::run({test::program("limbcast-log"), "cat", in_}).exit_code, 2);
+  EXPECT_EQ(test::run({test::program("limbcast-log"), "cut", in_}).exit_code, 2);
+  EXPECT_EQ(test::run({test::program("limbcast-log"), "--help"}).exit_code, 0);
+}
+
+class Merge : public ::testing::Test {
+ protected:
+  void write(const std::string& path, const std::vector<std::pair<int, std::string>>& events) {
+    lcm_io::LogWriter log(path);
+    for (const auto& [utime, text] : events) log.write({utime, "C", {text.begin(), text.end()}});
+    log.close();
+  }
+  std::string merged_text() const {
+    std::string text;
+    for (const auto& event : events_in(out_)) text.append(event.data.begin(), event.data.end());
+    return text;
+  }
+  const std::string folder_ = test::temporary_folder("log_merge");
+  const std::string a_ = folder_ + "/a.log", b_ = folder_ + "/b.log", out_ = folder_ + "/out.log";
+};
+
+TEST_F(Merge, GoesByTimeAndKeepsTheOrderOfEachLog) {
+  write(a_, {{1, "a"}, {5, "c"}, {4, "d"}, {9, "f"}});
+  write(b_, {{1, "b"}, {6, "e"}, {10, "g"}});
+  EXPECT_EQ(merge({out_, {a_, b_}, false}).events_kept, 7);
+  EXPECT_EQ(merged_text(), "abcdefg");
+  EXPECT_EQ(events_in(out_).back().number, 6);
+}
+
+TEST_F(Merge, KeepsOnceWhatTwoLoggersHeardOnRequest) {
+  write(a_, {{1, "x"}, {3, "x"}, {5, "a"}});
+  write(b_, {{2, "x"}, {4, "b"}, {6, "a"}});
+  EXPECT_EQ(merge({out_, {a_, b_}, false}).events_kept, 6);
+  EXPECT_EQ(merge({out_, {a_, b_}, true}).events_kept, 4) << "x twice, as in the first log";
+  EXPECT_EQ(merged_text(), "xxba");
+}
+
+TEST_F(Merge, RefusesToOverwriteAnInput) {
+  write(a_, {{1, "a"}});
+  EXPECT_THROW(merge({a_, {a_}, false}), config::UsageError);
+  EXPECT_EQ(events_in(a_).size(), 1U);
+}
+
+}  // namespace
+}  // namespace limbcast::logs

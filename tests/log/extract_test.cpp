@@ -1,0 +1,121 @@
+#include "modules/log/extract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limbcast/stereo_images_t.hpp>
+
+#include "common/config/options.hpp"
+#include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/pose_json/pose_lines.hpp"
+#include "tests/log/logs.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::logs {
+namespace {
+
+using lcm_io::LogEvent;
+
+std::vector<LogEvent> on(const std::string& channel, const std::vector<LogEvent>& events) {
+  std::vector<LogEvent> found;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(found),
+               [&](const LogEvent& event) { return event.channel == channel; });
+  return found;
+}
+
+class Extract : public ::testing::Test {
+ protected:
+  ExtractOptions options(const std::string& in, Extracted what) const {
+    ExtractOptions options;
+    options.in = in;
+    options.folder = out_;
+    options.what = what;
+    return options;
+  }
+  const std::string folder_ = test::temporary_folder("log_extract");
+  const std::string log_ = folder_ + "/in.log", out_ = folder_ + "/out";
+};
+
+TEST_F(Extract, OfImagesGivesTheSameLogWhenItIsReadBack) {
+  const std::string in = test::repository_file("logs/multi.log"), back = folder_ + "/back.log";
+  extract(options(in, Extracted::kImages));
+  const auto run = test::run({test::program("limbcast-stereo-camera"), "--source", out_,
+                              "--calibration", out_ + "/calibration.yml", "--log", back});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const auto before = on("STEREO_IMAGES", events_in(in)),
+             after = on("STEREO_IMAGES", events_in(back));
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const auto a = lcm_io::decode<stereo_images_t>(before[i].data),
+               b = lcm_io::decode<stereo_images_t>(after[i].data);
+    EXPECT_EQ(a.left.data, b.left.data);
+    EXPECT_EQ(a.right.data, b.right.data);
+    EXPECT_EQ(a.stamp.utime, b.stamp.utime);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a.stamp.down[axis], b.stamp.down[axis], 1e-5);
+  }
+  EXPECT_EQ(on("GROUND_TRUTH", events_in(back)).size(), before.size());
+}
+
+TEST_F(Extract, OfCloudsWritesFilesThatTheLaserScannerReads) {
+  Cloud cloud;
+  cloud.stamp.utime = kBegin;
+  cloud.stamp.sensor = "front";
+  cloud.width = 3;
+  cloud.height = 1;
+  cloud.points_m = {{1.0F, 2.0F, 3.0F}, {-1.0F, 0.5F, 4.0F}, {0.0F, 0.0F, 2.0F}};
+  cloud.colors = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  {
+    lcm_io::LogWriter log(log_);
+    log.write(kBegin, "POINT_CLOUD", lcm_io::to_message(cloud));
+    log.close();
+  }
+  EXPECT_EQ(extract(options(log_, Extracted::kClouds)).frames, 1);
+  const std::string back = folder_ + "/back.log";
+  const auto run =
+      test::run({test::program("limbcast-laser-scanner"), "--source", out_, "--log", back});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const auto events = on("POINT_CLOUD", events_in(back));
+  ASSERT_EQ(events.size(), 1U);
+  const Cloud read = lcm_io::from_message(lcm_io::decode<point_cloud_t>(events[0].data));
+  ASSERT_EQ(read.points_m.size(), 3U);
+  EXPECT_EQ(read.stamp.utime, kBegin);
+}
+
+TEST_F(Extract, OfPosesWritesALineAFrame) {
+  write_ten_frames(log_);
+  EXPECT_EQ(extract(options(log_, Extracted::kPoses)).frames, 10);
+  const auto frames = pose_json::read_file(out_ + "/BODY_POSES.jsonl");
+  ASSERT_EQ(frames.size(), 10U);
+  EXPECT_EQ(frames[3].stamp.utime, kBegin + 3 * kFrame_us);
+}
+
+TEST_F(Extract, AsksForTheSensorWhereThereAreSeveral) {
+  {
+    lcm_io::LogWriter log(log_);
+    for (const char* sensor : {"front", "rear"}) {
+      Cloud cloud;
+      cloud.stamp.utime = kBegin;
+      cloud.stamp.sensor = sensor;
+      cloud.width = cloud.height = 1;
+      cloud.points_m = {{1.0F, 2.0F, 3.0F}};
+      log.write(kBegin, "POINT_CLOUD", lcm_io::to_message(cloud));
+    }
+    log.close();
+  }
+  ExtractOptions clouds = options(log_, Extracted::kClouds);
+  EXPECT_THROW(extract(clouds), config::UsageError);
+  clouds.sensor = "rear";
+  EXPECT_EQ(extract(clouds).frames, 1);
+  clouds.sensor = "left";
+  EXPECT_THROW(extract(clouds), config::UsageError);
+}
+
+TEST_F(Extract, RefusesALogWithNothingOfTheKind) {
+  write_ten_frames(log_);
+  EXPECT_THROW(extract(options(log_, Extracted::kImages)), config::UsageError);
+}
+
+}  // namespace
+}  // namespace limbcast::logs
