@@ -73,7 +73,7 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
 
 DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {
   MatcherParams params;
-  params.num_disparities = num_disparities_;
+  params.semi_global.num_disparities = num_disparities_;
   // A pixel's match stands up to num_disparities further left.
   const int left_edge = std::max(0, roi_.x - num_disparities_);
   const cv::Rect searched(left_edge, roi_.y, roi_.x + roi_.width - left_edge, roi_.height);

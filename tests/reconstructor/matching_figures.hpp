@@ -13,6 +13,8 @@ class MatchingFigures {
  public:
   void add(const cv::Mat1f& disparity_px, const TrueFrame& frame);
 
+  /// Nobody was seen: the other figures are not numbers.
+  bool empty() const { return pixels_ == 0; }
   /// Share of the people's pixels with a disparity.
   double valid_share() const;
   /// Share of these that are off by more than 2 px.
