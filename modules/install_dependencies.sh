@@ -12,7 +12,7 @@ packages_test=(
   libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev
   clang-format clang-tidy jq
   default-jdk-headless liblcm-java
-  libfaketime systemd
+  libfaketime systemd help2man
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good)
 
 packages=("${packages_run[@]}")

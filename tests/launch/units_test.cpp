@@ -19,7 +19,7 @@ class Units : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     root_ = test::temporary_folder("units");
-    for (const char* component : {"Unspecified", "settings"}) {
+    for (const char* component : {"tools", "settings"}) {
       const auto installed =
           run({"env", "DESTDIR=" + root_.string(), LIMBCAST_CMAKE, "--install", LIMBCAST_BUILD_DIR,
                "--prefix", "/usr", "--component", component});

@@ -1,0 +1,73 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::packages {
+namespace {
+
+namespace fs = std::filesystem;
+using test::run;
+using ::testing::HasSubstr;
+
+/// The .deb files that cpack makes of this build.
+class Packages : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = test::temporary_folder("packages");
+    const auto packed =
+        run({LIMBCAST_CPACK, "--config", std::string(LIMBCAST_BUILD_DIR) + "/CPackConfig.cmake",
+             "-B", folder_.string()});
+    ASSERT_EQ(packed.exit_code, 0) << packed.output;
+  }
+  /// What dpkg-deb says of the package that begins with `name`.
+  static std::string tell(const std::string& what, const std::string& name) {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      if (entry.path().filename().string().rfind(name + "_", 0) == 0)
+        return run({"dpkg-deb", what, entry.path().string()}).output;
+    }
+    return "no such package";
+  }
+
+  static fs::path folder_;
+};
+
+fs::path Packages::folder_;
+
+TEST_F(Packages, HoldProgramsWithUnitsSettingsManualsAndCompletion) {
+  const std::string contents = tell("--contents", "limbcast-tools");
+  for (const char* file :
+       {"./usr/bin/limbcast-segmenter\n", "./usr/bin/limbcast-doctor\n", "./usr/bin/limbcast-spy\n",
+        "./usr/lib/systemd/system/limbcast-segmenter@.service\n",
+        "./usr/lib/sysctl.d/60-limbcast.conf\n", "./etc/limbcast/lcm.conf\n",
+        "./usr/share/bash-completion/completions/limbcast-segmenter\n"})
+    EXPECT_THAT(contents, HasSubstr(file));
+  EXPECT_THAT(contents, Not(HasSubstr("/usr/include")));
+}
+
+TEST_F(Packages, HoldTypesForCppAndJava) {
+  const std::string contents = tell("--contents", "limbcast-dev");
+  for (const char* file :
+       {"./usr/include/limbcast/body_poses_t.hpp\n",
+        "./usr/share/cmake/limbcast/limbcastConfig.cmake\n", "./usr/share/pkgconfig/limbcast.pc\n",
+        "./usr/share/limbcast/lcmtypes/body_poses_t.lcm\n",
+        "./usr/share/doc/limbcast-dev/examples/subscriber.cpp\n"})
+    EXPECT_THAT(contents, HasSubstr(file));
+  if (fs::exists(std::string(LIMBCAST_BUILD_DIR) + "/share/java/limbcast_types.jar")) {
+    EXPECT_THAT(tell("--contents", "limbcast-java"),
+                HasSubstr("./usr/share/java/limbcast_types.jar\n"));
+  }
+}
+
+TEST_F(Packages, NameWhatTheyNeed) {
+  const std::string tools = tell("--info", "limbcast-tools");
+  EXPECT_THAT(tools, HasSubstr("libopencv-core406"));
+  EXPECT_THAT(tools, HasSubstr("liblcm-bin"));
+  EXPECT_THAT(tools, HasSubstr("conffiles"));
+  EXPECT_THAT(tell("--info", "limbcast-dev"), HasSubstr("Depends: liblcm-dev"));
+}
+
+}  // namespace
+}  // namespace limbcast::packages
