@@ -38,9 +38,10 @@ inside 'rm -rf /root/examples; cp -r /usr/share/doc/limbcast-dev/examples /root/
   export LCM_DEFAULT_URL="udpm://239.255.76.67:7668?ttl=0"
   cmake -B build >/dev/null; cmake --build build
   g++ -std=c++17 subscriber.cpp -o subscriber $(pkg-config --cflags --libs limbcast)
-  build/subscriber >cmake.txt & ./subscriber >pkg-config.txt &
-  java -Djava.net.preferIPv4Stack=true -cp /usr/share/java/lcm.jar:/usr/share/java/limbcast_types.jar Subscriber.java >java.txt &
-  trap "kill %1 %2 %3" EXIT
+  build/subscriber >cmake.txt & started=$!
+  ./subscriber >pkg-config.txt & started="$started $!"
+  java -Djava.net.preferIPv4Stack=true -cp /usr/share/java/lcm.jar:/usr/share/java/limbcast_types.jar Subscriber.java >java.txt & started="$started $!"
+  trap "kill $started" EXIT
   # Until the slowest of them has started and heard a frame.
   until grep -q frame java.txt; do lcm-logplayer --speed=4 /var/tmp/replayed.log >/dev/null; done
   grep -c frame cmake.txt pkg-config.txt java.txt
