@@ -28,6 +28,12 @@ bool stderr_is_journal() {
          stream == std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
 }
 
+/// Empty where stderr is not the journal.
+const char* priority_of(LogLevel level) {
+  static const bool kToJournal = stderr_is_journal();
+  return kToJournal ? kJournalPriorities[static_cast<int>(level)] : "";
+}
+
 LogLevel& highest_level() {
   static LogLevel level = LogLevel::kInfo;
   return level;
@@ -45,11 +51,13 @@ void configure_log(const std::string& module, const std::string& level) {
 
 void log(LogLevel level, const std::string& text) {
   if (level > highest_level()) return;
-  static const bool kToJournal = stderr_is_journal();
-  const std::string priority = kToJournal ? kJournalPriorities[static_cast<int>(level)] : "";
   // One call a line: stdio locks the stream, so lines of several threads do not mix.
-  std::fprintf(stderr, "%s%s %s %s\n", priority.c_str(), module_name().c_str(),
+  std::fprintf(stderr, "%s%s %s %s\n", priority_of(level), module_name().c_str(),
                kLevelNames[static_cast<int>(level)], text.c_str());
+}
+
+void log_failure(const std::string& program, const std::string& text) {
+  std::fprintf(stderr, "%s%s: %s\n", priority_of(LogLevel::kError), program.c_str(), text.c_str());
 }
 
 }  // namespace limbcast::config

@@ -12,4 +12,7 @@ void configure_log(const std::string& module, const std::string& level);
 /// One line on stderr: "module LEVEL text". Safe to call from any thread.
 void log(LogLevel level, const std::string& text);
 
+/// The one line with which a program says why it fails: "program: text".
+void log_failure(const std::string& program, const std::string& text);
+
 }  // namespace limbcast::config

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "common/config/log.hpp"
 #include "common/config/version.hpp"
 
 namespace limbcast::config {
@@ -312,10 +313,10 @@ int run_program(const std::string& program, const std::function<void()>& body) {
     body();
     return 0;
   } catch (const InputError& error) {
-    std::cerr << program << ": " << error.what() << '\n';
+    log_failure(program, error.what());
     return kWrongUsage;
   } catch (const std::exception& error) {
-    std::cerr << program << ": " << error.what() << '\n';
+    log_failure(program, error.what());
     return kFailedAtRunTime;
   }
 }

@@ -19,9 +19,10 @@ LogEvent to_event(std::int64_t utime, const std::string& channel, const Message&
 }
 
 template <class Message>
-std::optional<std::string> sensor_in(const LogEvent& event) {
+std::optional<Frame> frame_in(const LogEvent& event) {
   try {
-    return decode<Message>(event.data).stamp.sensor;
+    const stamp_t stamp = decode<Message>(event.data).stamp;
+    return Frame{stamp.sensor, stamp.utime};
   } catch (const lcm_io::MessageError&) {
     return std::nullopt;
   }
@@ -49,20 +50,28 @@ bool Chain::is_calibration(const std::string& channel) const {
   return channel == options_.reconstructor.stereo_calibration_channel;
 }
 
-std::optional<std::string> Chain::sensor_of(const LogEvent& event) const {
+std::optional<Frame> Chain::frame_of(const LogEvent& event) const {
   switch (level_of(event.channel).value()) {
     case Level::kImages:
       return event.channel == options_.reconstructor.depth_images_channel
-                 ? sensor_in<depth_images_t>(event)
-                 : sensor_in<stereo_images_t>(event);
+                 ? frame_in<depth_images_t>(event)
+                 : frame_in<stereo_images_t>(event);
     case Level::kClouds:
-      return sensor_in<point_cloud_t>(event);
+      return frame_in<point_cloud_t>(event);
     case Level::kSegments:
-      return sensor_in<segments_t>(event);
+      return frame_in<segments_t>(event);
     case Level::kPoses:
-      return sensor_in<body_poses_t>(event);
+      return frame_in<body_poses_t>(event);
   }
   return std::nullopt;
+}
+
+bool Chain::needs_calibration(const std::string& channel) const {
+  return channel == options_.reconstructor.stereo_images_channel;
+}
+
+bool Chain::has_calibration(const std::string& sensor) const {
+  return reconstructor_.find(sensor) != nullptr;
 }
 
 void Chain::on_calibration(const LogEvent& event) {
@@ -81,7 +90,7 @@ void Chain::on_first_calibration(const LogEvent& event) {
 std::function<FrameResult()> Chain::prepare(LogEvent event) const {
   Reconstructor stereo;
   if (event.channel == options_.reconstructor.stereo_images_channel)
-    stereo = reconstructor_.find(sensor_of(event).value_or(""));
+    stereo = reconstructor_.find(frame_of(event).value_or(Frame{}).sensor);
   return [this, event = std::move(event), stereo = std::move(stereo)] {
     FrameResult result;
     try {

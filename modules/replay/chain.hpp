@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "common/lcm_io/log_file.hpp"
@@ -15,6 +16,15 @@ namespace limbcast::replay {
 
 /// Messages of the chain in the order in which they are made from one another.
 enum class Level { kImages = 0, kClouds = 1, kSegments = 2, kPoses = 3 };
+
+/// What one sensor saw at one moment.
+struct Frame {
+  std::string sensor;
+  std::int64_t utime = 0;
+  bool operator<(const Frame& other) const {
+    return std::tie(sensor, utime) < std::tie(other.sensor, other.utime);
+  }
+};
 
 struct ChainOptions {
   reconstructor::StageOptions reconstructor;
@@ -41,8 +51,11 @@ class Chain {
   /// Level of the messages on that channel; nothing for channels outside the chain.
   std::optional<Level> level_of(const std::string& channel) const;
   bool is_calibration(const std::string& channel) const;
-  /// Sensor of a message of the chain; nothing where it is malformed.
-  std::optional<std::string> sensor_of(const lcm_io::LogEvent& event) const;
+  /// Frame to which a message of the chain belongs; nothing where it is malformed.
+  std::optional<Frame> frame_of(const lcm_io::LogEvent& event) const;
+  /// True for images that need a calibration, which comes in a message of its own.
+  bool needs_calibration(const std::string& channel) const;
+  bool has_calibration(const std::string& sensor) const;
 
   /// Takes a calibration over, for the frames that come later. Throws MessageError or what the
   /// reconstructor says.

@@ -62,6 +62,9 @@ void report(const ReplaySummary& summary, const std::string& in, double seconds)
   if (summary.torn_bytes > 0)
     log(LogLevel::kWarning, in + ": is torn, its last " + std::to_string(summary.torn_bytes) +
                                 " bytes are no whole message and were left out");
+  for (const std::string& sensor : summary.uncalibrated)
+    log(LogLevel::kWarning, in + ": no calibration of stereo camera '" + sensor +
+                                "'; began with what was made from its images");
   if (summary.damaged_bytes > 0)
     log(LogLevel::kWarning, in + ": is damaged, " + std::to_string(summary.damaged_bytes) +
                                 " bytes between messages hold none and were left out");

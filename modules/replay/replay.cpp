@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/core/utility.hpp>
+#include <set>
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/decode.hpp"
@@ -48,7 +49,8 @@ class Replay {
       while (workers.pending() > max_pending || oldest_is_ready())
         write_oldest(workers, writer, progress);
     }
-    while (!waiting_.empty()) write_oldest(workers, writer, progress);
+    // Who stops the program does not wait for the frames that are in work.
+    while (!waiting_.empty() && !lcm_io::stop_requested()) write_oldest(workers, writer, progress);
     writer.close();
     summary_.interrupted = lcm_io::stop_requested();
     summary_.torn_bytes = reader.torn_bytes();
@@ -67,18 +69,32 @@ class Replay {
 
   /// First pass: where the chain begins for each sensor, and its first calibration.
   void survey() {
-    std::map<std::pair<std::string, Level>, int> counts;
+    std::map<std::pair<std::string, Level>, std::set<std::int64_t>> frames;
+    std::set<std::string> stereo_cameras;
     lcm_io::LogReader reader(options_.in);
     while (const auto event = reader.next()) {
       if (chain_.is_calibration(event->channel)) chain_.on_first_calibration(*event);
       const auto level = chain_.level_of(event->channel);
       if (!level || !may_begin(*level)) continue;
-      if (const auto sensor = chain_.sensor_of(*event)) ++counts[{*sensor, *level}];
+      const auto frame = chain_.frame_of(*event);
+      if (!frame) continue;
+      frames[{frame->sensor, *level}].insert(frame->utime);
+      if (chain_.needs_calibration(event->channel)) stereo_cameras.insert(frame->sensor);
     }
-    // The map's order is by sensor, then level: the first entry of a sensor is its first level.
-    for (const auto& [key, count] : counts) {
-      if (contents_.first_level.emplace(key.first, key.second).second) contents_.frames += count;
+    // The map's order is by sensor, then level: the last entry of a sensor that is taken is its
+    // first level.
+    for (auto entry = frames.rbegin(); entry != frames.rend(); ++entry) {
+      const auto& [sensor, level] = entry->first;
+      const bool has_later = contents_.first_level.count(sensor) > 0;
+      if (level == Level::kImages && has_later && stereo_cameras.count(sensor) > 0 &&
+          !chain_.has_calibration(sensor)) {
+        summary_.uncalibrated.push_back(sensor);
+        continue;
+      }
+      contents_.first_level[sensor] = level;
     }
+    for (const auto& [sensor, level] : contents_.first_level)
+      contents_.frames += static_cast<int>(frames.at({sensor, level}).size());
     if (contents_.frames == 0)
       throw UsageError(options_.in +
                        ": holds no images, clouds or segments to begin with; see --from and the "
@@ -101,16 +117,16 @@ class Replay {
 
   void take_in(LogEvent event, OrderedWorkers<FrameResult>& workers) {
     if (chain_.is_calibration(event.channel)) take_calibration(event);
-    const bool is_frame = begins_chain(event);
+    const bool is_frame = begins_chain(event) && !was_taken(event);
     if (!is_frame && is_stale(event)) return;
     if (is_frame) workers.add(chain_.prepare(event));
     waiting_.push_back({std::move(event), is_frame});
   }
 
   std::optional<Level> first_level_of(const LogEvent& event) const {
-    const auto sensor = chain_.sensor_of(event);
-    if (!sensor) return std::nullopt;
-    const auto known = contents_.first_level.find(*sensor);
+    const auto frame = chain_.frame_of(event);
+    if (!frame) return std::nullopt;
+    const auto known = contents_.first_level.find(frame->sensor);
     if (known == contents_.first_level.end()) return std::nullopt;
     return known->second;
   }
@@ -118,9 +134,15 @@ class Replay {
   bool begins_chain(const LogEvent& event) const {
     const auto level = chain_.level_of(event.channel);
     if (!level || !may_begin(*level)) return false;
-    const auto sensor = chain_.sensor_of(event);
+    const auto frame = chain_.frame_of(event);
     // A malformed message goes through the chain as a frame, which names what is wrong with it.
-    return !sensor || contents_.first_level.at(*sensor) == *level;
+    return !frame || contents_.first_level.at(frame->sensor) == *level;
+  }
+
+  /// A frame that the log holds twice, as two hosts heard it, is worked on once.
+  bool was_taken(const LogEvent& event) {
+    const auto frame = chain_.frame_of(event);
+    return frame && !taken_.insert(*frame).second;
   }
 
   bool is_stale(const LogEvent& event) const {
@@ -176,6 +198,7 @@ class Replay {
   Contents contents_;
   ReplaySummary summary_;
   std::deque<Waiting> waiting_;
+  std::set<Frame> taken_;
 };
 
 void check_files(const ReplayOptions& options) {

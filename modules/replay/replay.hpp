@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "modules/replay/chain.hpp"
 
@@ -24,6 +25,8 @@ struct ReplaySummary {
   std::int64_t torn_bytes = 0;     ///< of IN behind its last whole message
   std::int64_t damaged_bytes = 0;  ///< of IN between its messages
   bool interrupted = false;
+  /// Stereo cameras whose images have no calibration, so that their clouds or segments were taken.
+  std::vector<std::string> uncalibrated;
 };
 
 /// Called now and then with frames done, frames in all.

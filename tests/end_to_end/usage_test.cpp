@@ -43,7 +43,9 @@ INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram,
                                            "limbcast-reconstructor", "limbcast-segmenter",
                                            "limbcast-pose-fitter", "limbcast-replay",
                                            "limbcast-export-poses", "limbcast-evaluate",
-                                           "limbcast-viewer", "limbcast-doctor"));
+                                           "limbcast-viewer", "limbcast-doctor",
+                                           "limbcast-laser-scanner", "limbcast-tracker",
+                                           "limbcast-simulate", "limbcast-status"));
 
 }  // namespace
 }  // namespace limbcast::test

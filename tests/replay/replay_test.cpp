@@ -121,6 +121,26 @@ TEST_F(ReplayProgram, TakesACalibrationThatComesLate) {
                    on_channel(replayed(write("in.log", two_frames_)), "BODY_POSES")));
 }
 
+TEST_F(ReplayProgram, BeginsWithCloudsWhereAPartOfALogHasNoCalibration) {
+  const auto first = replayed(write("in.log", two_frames_));
+  std::vector<LogEvent> part;
+  for (const LogEvent& event : first)
+    if (event.channel != "STEREO_CALIBRATION" && event.channel != "SEGMENTS") part.push_back(event);
+  const auto result = replay({write("part.log", part), path("again.log")});
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("no calibration of stereo camera"));
+  EXPECT_TRUE(same(on_channel(events_of(path("again.log")), "BODY_POSES"),
+                   on_channel(first, "BODY_POSES")));
+}
+
+TEST_F(ReplayProgram, WorksOnceOnAFrameThatTwoHostsHeard) {
+  std::vector<LogEvent> doubled;
+  for (const LogEvent& event : two_frames_) doubled.insert(doubled.end(), 2, event);
+  const auto out = replayed(write("in.log", doubled));
+  EXPECT_THAT(on_channel(out, "STEREO_IMAGES"), SizeIs(4));
+  EXPECT_THAT(on_channel(out, "BODY_POSES"), SizeIs(2));
+}
+
 TEST_F(ReplayProgram, SaysThatTheCalibrationIsMissing) {
   std::vector<LogEvent> bare;
   for (const LogEvent& event : two_frames_) {
