@@ -1,5 +1,7 @@
 #include "modules/reconstructor/depth_to_cloud.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -49,6 +51,25 @@ bool is_between(float before_m, float here_m, float after_m, float step_m) {
          (before_m - here_m > step_m && here_m - after_m > step_m);
 }
 
+/// Whether the surface at a pixel leads from one object to another, as sensors that smooth their
+/// depth make it: on both sides it is steeper than a surface that is still seen.
+bool is_flying(const cv::Mat1f& depth_m, int u, int v, const PinholeCamera& camera,
+               const DepthToCloudParams& params) {
+  const float z_m = depth_m(v, u);
+  const auto px_per_m = static_cast<float>(camera.fx) / z_m;
+  const int reach_px =
+      std::max(1, static_cast<int>(std::lround(params.flying_window_m * px_per_m)));
+  const auto run_m = static_cast<float>(reach_px) / px_per_m;
+  const auto at = [&](int du, int dv) {
+    return depth_m(std::clamp(v + dv, 0, depth_m.rows - 1),
+                   std::clamp(u + du, 0, depth_m.cols - 1));
+  };
+  const auto across = static_cast<float>(params.max_slope_across);
+  const auto upwards = static_cast<float>(params.max_slope_upwards);
+  return (across > 0.0F && is_between(at(-reach_px, 0), z_m, at(reach_px, 0), across * run_m)) ||
+         (upwards > 0.0F && is_between(at(0, -reach_px), z_m, at(0, reach_px), upwards * run_m));
+}
+
 }  // namespace
 
 Cloud depth_to_cloud(const cv::Mat& depth, const cv::Mat& color,
@@ -67,23 +88,12 @@ Cloud depth_to_cloud(const cv::Mat& depth, const cv::Mat& color,
   depth_m.setTo(0.0F, (depth_m < params.near_limit_m) | (depth_m > params.far_limit_m));
 
   cloud.points_m.assign(depth_m.total(), Eigen::Vector3f::Zero());
-  const auto flying = static_cast<float>(params.flying_step_share);
   std::size_t index = 0;
   for (int v = 0; v < cloud.height; ++v) {
-    const float* above = depth_m[std::max(v - 1, 0)];
-    const float* row = depth_m[v];
-    const float* below = depth_m[std::min(v + 1, cloud.height - 1)];
     for (int u = 0; u < cloud.width; ++u, ++index) {
-      const float z_m = row[u];
-      if (z_m <= 0.0F) continue;
-      const float left_m = row[std::max(u - 1, 0)];
-      const float right_m = row[std::min(u + 1, cloud.width - 1)];
-      const float step_m = flying * z_m;
-      if (flying > 0.0F &&
-          (is_between(left_m, z_m, right_m, step_m) || is_between(above[u], z_m, below[u], step_m)))
-        continue;
+      if (depth_m(v, u) <= 0.0F || is_flying(depth_m, u, v, camera, params)) continue;
       cloud.points_m[index] =
-          camera.back_project(static_cast<float>(u), static_cast<float>(v), z_m);
+          camera.back_project(static_cast<float>(u), static_cast<float>(v), depth_m(v, u));
     }
   }
   cloud.colors = colors_of(images.color);

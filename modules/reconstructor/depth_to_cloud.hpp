@@ -15,9 +15,13 @@ struct DepthToCloudParams {
   /// README.md.
   double noise_constant_m = 0.002;
   double noise_quadratic_per_m = 0.0020;
-  /// A pixel is flying, between two surfaces, where the depth changes by more than this share of
-  /// the depth towards both sides of it, once nearer and once farther; 0 keeps all.
-  double flying_step_share = 0.02;
+  /// A pixel is flying, between two surfaces, where the surface is steeper than this on both sides,
+  /// in metres of depth a metre across: to the left and right, where walls end at 75 degrees, and
+  /// up and down, where a floor far away is steep too; 0 keeps all.
+  double max_slope_across = 3.5;
+  double max_slope_upwards = 8.0;
+  /// How far to both sides the slope is measured [m]: skirts of a RealSense D435 are 6 cm wide.
+  double flying_window_m = 0.015;
 };
 
 /// Organised cloud in the colour camera's frame. `depth` is 16-bit and registered to `color` (8-bit

@@ -1,0 +1,67 @@
+#include "modules/reconstructor/depth_to_cloud.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace limbcast::reconstructor {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+constexpr double kFocalPx = 300.0;
+
+/// Cloud of a camera that measures depth_at(u, v) metres at each pixel, to the millimetre.
+Cloud cloud_of(const std::function<double(int, int)>& depth_at) {
+  DepthCalibration calibration;
+  calibration.color.camera = {kWidth, kHeight, kFocalPx, kFocalPx, kWidth / 2.0, kHeight / 2.0};
+  cv::Mat1w depth_mm(kHeight, kWidth);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u)
+      depth_mm(v, u) = static_cast<std::uint16_t>(std::lround(1000.0 * depth_at(u, v)));
+  }
+  return depth_to_cloud(depth_mm, {}, calibration);
+}
+
+int holes(const Cloud& cloud) {
+  int count = 0;
+  for (std::size_t i = 0; i < cloud.points_m.size(); ++i) count += cloud.is_hole(i) ? 1 : 0;
+  return count;
+}
+
+TEST(DepthToCloud, RemovesTheSkirtThatASmoothingSensorDrawsFromABodyToTheWall) {
+  constexpr int kSkirtBegin = 60, kSkirtEnd = 70;
+  const auto depth_at = [](int u, int /*v*/) {
+    if (u < kSkirtBegin) return 2.0;
+    if (u > kSkirtEnd) return 2.6;
+    return 2.0 + 0.6 * (u - kSkirtBegin) / (kSkirtEnd - kSkirtBegin);
+  };
+  const Cloud cloud = cloud_of(depth_at);
+  const auto is_hole = [&cloud](int u) {
+    return cloud.is_hole(static_cast<std::size_t>(kHeight / 2 * kWidth + u));
+  };
+  EXPECT_FALSE(is_hole(kSkirtBegin)) << "the body's edge";
+  EXPECT_TRUE(is_hole((kSkirtBegin + kSkirtEnd) / 2));
+  EXPECT_FALSE(is_hole(kSkirtEnd + 1)) << "the wall";
+}
+
+TEST(DepthToCloud, KeepsWallsAndFloorsThatAreSeenAtAFlatAngle) {
+  const auto wall = [](int u, int /*v*/) {
+    constexpr double kSlope = 3.0;  // 72 degrees off the line of sight
+    return 2.0 / (1.0 - kSlope * (u - kWidth / 2.0) / kFocalPx * 0.5);
+  };
+  EXPECT_EQ(holes(cloud_of(wall)), 0);
+  const auto floor = [](int /*u*/, int v) {
+    constexpr double kSensorHeight = 1.2;
+    return v > kHeight / 2 + 60 - 1 ? 3.0 : kSensorHeight * kFocalPx / (v + 60.0);
+  };
+  EXPECT_EQ(holes(cloud_of(floor)), 0);
+}
+
+TEST(DepthToCloud, KeepsHolesAndWhatStandsBesideThem) {
+  const Cloud cloud = cloud_of([](int u, int /*v*/) { return u < 80 ? 2.0 : 0.0; });
+  EXPECT_EQ(holes(cloud), kHeight * 80);
+}
+
+}  // namespace
+}  // namespace limbcast::reconstructor
