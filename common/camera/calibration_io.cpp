@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <opencv2/core/eigen.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "common/camera/yaml_reader.hpp"
 #include "common/input_error.hpp"
@@ -183,6 +185,37 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
   return calibration;
 }
 
+cv::Mat to_cv(const Eigen::MatrixXd& matrix) {
+  cv::Mat result;
+  cv::eigen2cv(matrix, result);
+  return result;
+}
+
+void write_lens(cv::FileStorage& file, const std::string& number, const LensCalibration& lens) {
+  const PinholeCamera& camera = lens.camera;
+  const cv::Matx33d K{camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+  file << "K" + number << cv::Mat(K);
+  if (lens.distortion.empty()) return;
+  file << "D" + number << cv::Mat(lens.distortion, true).reshape(1, 1);
+}
+
+/// Q takes (u, v, disparity, 1) to a point, as cv::reprojectImageTo3D wants it.
+cv::Mat disparity_to_point(const Rectification& rectification) {
+  const double focal_px = rectification.P1(0, 0);
+  const double tx_m = rectification.P2(0, 3) / rectification.P2(0, 0);
+  const double cx_difference_px = rectification.P1(0, 2) - rectification.P2(0, 2);
+  return (cv::Mat_<double>(4, 4) << 1.0, 0.0, 0.0, -rectification.P1(0, 2),  //
+          0.0, 1.0, 0.0, -rectification.P1(1, 2),                            //
+          0.0, 0.0, 0.0, focal_px,                                           //
+          0.0, 0.0, -1.0 / tx_m, cx_difference_px / tx_m);
+}
+
+void write_rectification(cv::FileStorage& file, const Rectification& rectification) {
+  file << "R1" << to_cv(rectification.R1) << "R2" << to_cv(rectification.R2);
+  file << "P1" << to_cv(rectification.P1) << "P2" << to_cv(rectification.P2);
+  file << "Q" << disparity_to_point(rectification);
+}
+
 /// The existing file of that stem in `folder`, .yaml or .yml.
 fs::path yaml_in(const fs::path& folder, const std::string& stem) {
   for (const char* extension : {".yaml", ".yml"}) {
@@ -216,6 +249,20 @@ StereoCalibration read_stereo_calibration(const std::string& path) {
   const YamlReader yaml(path);
   if (!yaml.has("camera_matrix")) return read_opencv_stereo(yaml);
   return read_ros_pair(yaml, YamlReader(right_of(path).string()));
+}
+
+void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration) {
+  cv::FileStorage file(path, cv::FileStorage::WRITE | cv::FileStorage::FORMAT_YAML);
+  if (!file.isOpened()) throw std::runtime_error(path + ": cannot be written");
+  file << "image_width" << calibration.left.camera.width;
+  file << "image_height" << calibration.left.camera.height;
+  write_lens(file, "1", calibration.left);
+  write_lens(file, "2", calibration.right);
+  file << "R" << to_cv(calibration.R) << "T" << to_cv(calibration.T);
+  if (calibration.rectification) write_rectification(file, *calibration.rectification);
+  const Mounting& mounting = calibration.mounting;
+  if (mounting.down) file << "down" << to_cv(*mounting.down);
+  if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
 }
 
 DepthCalibration read_depth_calibration(const std::string& path) {

@@ -19,10 +19,10 @@ namespace po = boost::program_options;
 
 /// Sections a robot's configuration file may hold; a program reads its own and checks the names of
 /// the rest.
-constexpr std::array<std::string_view, 15> kModuleNames = {
-    "stereo_camera", "depth_camera", "laser_scanner", "reconstructor", "segmenter",
-    "pose_fitter",   "tracker",      "viewer",        "replay",        "export_poses",
-    "evaluate",      "simulate",     "status",        "doctor",        "log"};
+constexpr std::array<std::string_view, 16> kModuleNames = {
+    "stereo_camera", "depth_camera", "laser_scanner", "reconstructor", "segmenter", "pose_fitter",
+    "tracker",       "viewer",       "replay",        "export_poses",  "evaluate",  "simulate",
+    "status",        "doctor",       "log",           "calibrate"};
 
 std::string with_hyphens(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');

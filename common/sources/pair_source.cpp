@@ -11,7 +11,8 @@ std::string size_text(int width, int height) {
 
 void check_size(const PairFormat& format, const EncodedImage& image, const std::string& name,
                 const std::string& where) {
-  if (image.width == format.width && image.height == format.height) return;
+  const bool any = format.width == 0 && format.height == 0;
+  if (any || (image.width == format.width && image.height == format.height)) return;
   throw InputError(where + ": the " + name + " image is " + size_text(image.width, image.height) +
                    ", the calibration is for " + size_text(format.width, format.height) +
                    "; give the calibration of this camera and image size");

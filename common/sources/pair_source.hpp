@@ -24,7 +24,7 @@ struct FramePair {
 struct PairFormat {
   FilePair names;                ///< {"left", "right"} or {"color", "depth"}
   bool second_is_depth = false;  ///< 16 bit, kept without loss
-  int width = 0, height = 0;     ///< size that the calibration is for [px]
+  int width = 0, height = 0;     ///< size that the calibration is for [px]; 0: any
   std::string sensor;            ///< Stamp::sensor
   std::string frame;             ///< Stamp::frame
   int jpeg_quality = 95;  ///< of pictures that are no JPEG yet, 1 to 100; 0: PNG, without loss

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "common/camera/yaml_reader.hpp"
 #include "common/input_error.hpp"
 #include "tests/common/camera/temporary_folder.hpp"
 
@@ -268,6 +269,37 @@ class DepthCalibrationFile : public ::testing::Test {
   }
   TemporaryFolder folder_;
 };
+
+TEST(WrittenStereoCalibration, IsReadAsItWas) {
+  StereoCalibration written;
+  written.left = {{640, 480, 500.0, 501.0, 320.0, 240.0}, {-0.3, 0.1, 0.001, -0.002, 0.05}};
+  written.right = {{640, 480, 510.0, 511.0, 321.0, 241.0}, {}};
+  written.T = {-0.12, 0.001, -0.002};
+  Rectification rectification;
+  rectification.R1 = rectification.R2 = Eigen::Matrix3d::Identity();
+  rectification.P1 << 500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0;
+  rectification.P2 << 500, 0, 320, -60, 0, 500, 240, 0, 0, 0, 1, 0;
+  written.rectification = rectification;
+  written.mounting = {Eigen::Vector3d(0.0, 0.8, 0.6), 1.25};
+  const TemporaryFolder folder;
+  write_stereo_calibration(folder / "c.yml", written);
+
+  const StereoCalibration read = read_stereo_calibration(folder / "c.yml");
+  EXPECT_EQ(read.left.camera.fy, 501.0);
+  EXPECT_EQ(read.left.distortion, written.left.distortion);
+  EXPECT_EQ(read.right.camera.cx, 321.0);
+  EXPECT_TRUE(read.right.distortion.empty());
+  EXPECT_EQ(read.T, written.T);
+  ASSERT_TRUE(read.rectification);
+  EXPECT_EQ(read.rectification->P2, rectification.P2);
+  ASSERT_TRUE(read.mounting.down);
+  EXPECT_TRUE(read.mounting.down->isApprox(*written.mounting.down));
+  EXPECT_EQ(read.mounting.sensor_height_m, 1.25);
+  // Disparity 12 px is 500 * 0.12 / 12 = 5 m: Q (u, v, d, 1) = (x, y, f, d / B).
+  const Eigen::Vector4d point =
+      YamlReader(folder / "c.yml").matrix("Q", 4, 4) * Eigen::Vector4d(320.0, 240.0, 12.0, 1.0);
+  EXPECT_DOUBLE_EQ(point.z() / point.w(), 5.0);
+}
 
 TEST_F(DepthCalibrationFile, GivesCameraAndScale) {
   const DepthCalibration calibration = read();

@@ -1,0 +1,182 @@
+#include "modules/calibrate/board.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <opencv2/aruco/charuco.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace limbcast::calibrate {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+/// Share of a square that a marker takes, and of the distance of two circles that one is wide.
+constexpr double kMarkerShare = 0.7, kCircleShare = 0.5;
+
+cv::Size lattice(const Board& board) { return {board.columns, board.rows}; }
+
+cv::Ptr<cv::aruco::Dictionary> dictionary_of(const std::string& name) {
+  static const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> kDictionaries = {
+      {"4x4", cv::aruco::DICT_4X4_1000},
+      {"5x5", cv::aruco::DICT_5X5_1000},
+      {"6x6", cv::aruco::DICT_6X6_1000}};
+  return cv::aruco::getPredefinedDictionary(kDictionaries.at(name));
+}
+
+cv::Ptr<cv::aruco::CharucoBoard> charuco_of(const Board& board) {
+  return cv::aruco::CharucoBoard::create(
+      board.columns + 1, board.rows + 1, static_cast<float>(board.square_m),
+      static_cast<float>(board.marker_m), dictionary_of(board.dictionary));
+}
+
+BoardPoints numbered(std::vector<cv::Point2f> pixels) {
+  BoardPoints points;
+  points.ids.resize(pixels.size());
+  std::iota(points.ids.begin(), points.ids.end(), 0);
+  points.pixels = std::move(pixels);
+  return points;
+}
+
+/// The sector-based detector (Duda and Frese 2018) is the more exact one and stands blur and
+/// glare; the older one finds some boards at a slant that it misses.
+std::optional<BoardPoints> find_chessboard(const cv::Mat& grey, const Board& board) {
+  constexpr int kFlags =
+      cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_ACCURACY;
+  std::vector<cv::Point2f> corners;
+  if (cv::findChessboardCornersSB(grey, lattice(board), corners, kFlags)) return numbered(corners);
+  if (!cv::findChessboardCorners(grey, lattice(board), corners)) return std::nullopt;
+  constexpr int kHalfWindow_px = 5, kIterations = 30;
+  constexpr double kStep_px = 0.01;
+  cv::cornerSubPix(grey, corners, {kHalfWindow_px, kHalfWindow_px}, {-1, -1},
+                   {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kStep_px});
+  return numbered(corners);
+}
+
+std::optional<BoardPoints> find_circles(const cv::Mat& grey, const Board& board) {
+  std::vector<cv::Point2f> centres;
+  if (!cv::findCirclesGrid(grey, lattice(board), centres)) return std::nullopt;
+  return numbered(centres);
+}
+
+std::optional<BoardPoints> find_charuco(const cv::Mat& grey, const Board& board) {
+  const cv::Ptr<cv::aruco::CharucoBoard> charuco = charuco_of(board);
+  std::vector<std::vector<cv::Point2f>> markers;
+  std::vector<int> marker_ids;
+  cv::aruco::detectMarkers(grey, charuco->dictionary, markers, marker_ids);
+  if (marker_ids.empty()) return std::nullopt;
+  BoardPoints points;
+  cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, charuco, points.pixels,
+                                       points.ids);
+  if (points.ids.empty()) return std::nullopt;
+  return points;
+}
+
+cv::Mat draw_squares(const Board& board, int square_px) {
+  cv::Mat image((board.rows + 1) * square_px, (board.columns + 1) * square_px, CV_8UC1,
+                cv::Scalar(255));
+  for (int row = 0; row <= board.rows; ++row) {
+    for (int column = row % 2; column <= board.columns; column += 2)
+      image({column * square_px, row * square_px, square_px, square_px}).setTo(0);
+  }
+  return image;
+}
+
+cv::Mat draw_circles(const Board& board, int square_px) {
+  cv::Mat image(board.rows * square_px, board.columns * square_px, CV_8UC1, cv::Scalar(255));
+  // Fractions of a pixel, so that no centre is rounded.
+  constexpr int kFractionBits = 4, kUnit = 1 << kFractionBits;
+  const int radius = cvRound(0.5 * kCircleShare * square_px * kUnit);
+  for (int id = 0; id < board.num_points(); ++id) {
+    const cv::Point2d centre(square_px * (id % board.columns + 0.5) - 0.5,
+                             square_px * (id / board.columns + 0.5) - 0.5);
+    cv::circle(image, {cvRound(centre.x * kUnit), cvRound(centre.y * kUnit)}, radius, 0, cv::FILLED,
+               cv::LINE_AA, kFractionBits);
+  }
+  return image;
+}
+
+cv::Mat draw_charuco(const Board& board, int square_px) {
+  cv::Mat image;
+  charuco_of(board)->draw({(board.columns + 1) * square_px, (board.rows + 1) * square_px}, image);
+  return image;
+}
+
+}  // namespace
+
+cv::Point3f Board::point_m(int id) const {
+  return {static_cast<float>(square_m * (id % columns)),
+          static_cast<float>(square_m * (id / columns)), 0.0F};
+}
+
+void declare(config::Section& section, BoardOptions& options) {
+  section.add_choice("board", options.kind, {"chessboard", "circles", "charuco"},
+                     "what is on the board");
+  section.add("columns", options.columns, "", "inner corners in a row (circles in a row)", {3, 25});
+  section.add("rows", options.rows, "", "inner corners in a column (circles in a column)", {3, 25});
+  section.add("square-mm", options.square_mm, "mm",
+              "side of a square as measured on the board (distance of two circles' centres)",
+              {0.1, 10000.0});
+  section.add("marker-mm", options.marker_mm, "mm", "side of a ChArUco marker; 0: 0.7 of a square",
+              {0.0, 10000.0});
+  section.add_choice("dictionary", options.dictionary, {"4x4", "5x5", "6x6"},
+                     "ChArUco markers: OpenCV's DICT_4X4, DICT_5X5 or DICT_6X6");
+}
+
+Board to_board(const BoardOptions& options) {
+  static const std::map<std::string, BoardKind> kKinds = {{"chessboard", BoardKind::kChessboard},
+                                                          {"circles", BoardKind::kCircles},
+                                                          {"charuco", BoardKind::kCharuco}};
+  if (options.marker_mm >= options.square_mm)
+    throw config::UsageError("'marker-mm' must be smaller than 'square-mm'");
+  Board board;
+  board.kind = kKinds.at(options.kind);
+  board.columns = options.columns;
+  board.rows = options.rows;
+  board.square_m = options.square_mm / kMillimetres;
+  board.marker_m =
+      options.marker_mm > 0.0 ? options.marker_mm / kMillimetres : kMarkerShare * board.square_m;
+  board.dictionary = options.dictionary;
+  return board;
+}
+
+std::optional<BoardPoints> find_board(const cv::Mat& grey, const Board& board) {
+  switch (board.kind) {
+    case BoardKind::kCircles:
+      return find_circles(grey, board);
+    case BoardKind::kCharuco:
+      return find_charuco(grey, board);
+    case BoardKind::kChessboard:
+      break;
+  }
+  return find_chessboard(grey, board);
+}
+
+void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& right) {
+  if (board.kind == BoardKind::kCharuco) return;
+  const cv::Point2f diagonal_left = left.pixels.back() - left.pixels.front();
+  const cv::Point2f diagonal_right = right.pixels.back() - right.pixels.front();
+  if (diagonal_left.dot(diagonal_right) < 0.0F)
+    std::reverse(right.pixels.begin(), right.pixels.end());
+}
+
+std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
+                                    const BoardPoints& points) {
+  const bool complete = static_cast<int>(points.ids.size()) == board.num_points();
+  if (board.kind != BoardKind::kChessboard || !complete) return std::nullopt;
+  return cv::estimateChessboardSharpness(grey, lattice(board), points.pixels)[0];
+}
+
+cv::Mat draw_board(const Board& board, double pixels_per_m) {
+  const int square_px = std::max(8, cvRound(board.square_m * pixels_per_m));
+  cv::Mat image;
+  if (board.kind == BoardKind::kChessboard) image = draw_squares(board, square_px);
+  if (board.kind == BoardKind::kCircles) image = draw_circles(board, square_px);
+  if (board.kind == BoardKind::kCharuco) image = draw_charuco(board, square_px);
+  cv::copyMakeBorder(image, image, square_px, square_px, square_px, square_px, cv::BORDER_CONSTANT,
+                     cv::Scalar(255));
+  return image;
+}
+
+}  // namespace limbcast::calibrate

@@ -1,0 +1,120 @@
+#include "modules/calibrate/pair_input.hpp"
+
+#include <filesystem>
+#include <limbcast/stereo_calibration_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/camera/calibration_io.hpp"
+#include "common/lcm_io/calibration_codec.hpp"
+#include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
+#include "common/lcm_io/stereo_images_codec.hpp"
+#include "common/sources/log_playback.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+using Take = std::function<bool(const GreyPair&)>;
+
+const FilePair kNames{"left", "right"};
+constexpr const char* kImagesChannel = "STEREO_IMAGES";
+constexpr const char* kCalibrationChannel = "STEREO_CALIBRATION";
+
+cv::Mat grey(const EncodedImage& image, const std::string& where) {
+  EncodedImage wanted = image;
+  wanted.channels = 1;
+  return decode_image(wanted, where);
+}
+
+cv::Mat grey(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
+  cv::Mat result;
+  cv::cvtColor(image, result, cv::COLOR_BGR2GRAY);
+  return result;
+}
+
+void visit_folder(const std::string& folder, const Take& take) {
+  for (const RecordedFrame& frame : find_recording(folder, kNames, {}).frames) {
+    const EncodedImage left = read_encoded_image(frame.first_path);
+    const EncodedImage right = read_encoded_image(frame.second_path);
+    const GreyPair pair{frame.time.name, grey(left, frame.first_path),
+                        grey(right, frame.second_path)};
+    if (lcm_io::stop_requested() || !take(pair)) return;
+  }
+}
+
+void visit_log(const std::string& log, const Take& take) {
+  lcm_io::LogReader reader(log);
+  bool found = false;
+  while (const auto event = reader.next()) {
+    if (lcm_io::stop_requested()) return;
+    if (event->channel != kImagesChannel) continue;
+    found = true;
+    const StereoImages images = lcm_io::from_message(lcm_io::decode<stereo_images_t>(event->data));
+    const GreyPair pair{std::to_string(images.stamp.utime), grey(images.left), grey(images.right)};
+    if (!take(pair)) return;
+  }
+  if (!found) throw InputError(log + ": holds no pairs on " + kImagesChannel);
+}
+
+void visit_stream(const SourceOptions& options, const Take& take) {
+  PairFormat format;
+  format.names = kNames;
+  format.jpeg_quality = 0;  // without loss: corners are wanted to a tenth of a pixel
+  const std::unique_ptr<PairSource> source = open_source(options, format);
+  while (!source->ended() && !lcm_io::stop_requested()) {
+    const std::optional<FramePair> frame = source->next();
+    if (!frame) continue;
+    const std::string name = "frame " + std::to_string(frame->stamp.sequence);
+    if (!take({name, grey(frame->first, name), grey(frame->second, name)})) return;
+  }
+}
+
+StereoCalibration calibration_in(const std::string& log) {
+  lcm_io::LogReader reader(log);
+  while (const auto event = reader.next()) {
+    if (event->channel == kCalibrationChannel)
+      return lcm_io::from_message(lcm_io::decode<stereo_calibration_t>(event->data));
+  }
+  throw InputError(log + ": holds no calibration on " + kCalibrationChannel +
+                   "; give one with --calibration");
+}
+
+}  // namespace
+
+void declare_source(config::Section& section, SourceOptions& options) {
+  section.add("source", options.source,
+              "folder with NAME_left and NAME_right, LCM log, video file, /dev/videoN, "
+              "gst:PIPELINE or a stream's URL");
+  section.add("source-right", options.second_source,
+              "camera or video of the right image, where it has one of its own");
+  section.add("camera-width", options.camera.width, "px",
+              "ask the camera for this size, 0 = its own", {0, 16384});
+  section.add("camera-height", options.camera.height, "px",
+              "ask the camera for this size, 0 = its own", {0, 16384});
+  section.add("pair-tolerance-ms", options.pair_tolerance_ms, "ms",
+              "largest difference in time of the two images of two cameras", {0.0, 1000.0});
+}
+
+bool in_sequence(const std::string& source) { return !std::filesystem::is_directory(source); }
+
+void visit_pairs(const SourceOptions& options, const Take& take) {
+  if (options.source.empty()) throw config::UsageError("--source is missing; see --help");
+  if (std::filesystem::is_directory(options.source)) {
+    visit_folder(options.source, take);
+  } else if (is_lcm_log(options.source)) {
+    visit_log(options.source, take);
+  } else {
+    visit_stream(options, take);
+  }
+}
+
+StereoCalibration find_calibration(const std::string& path, const std::string& source) {
+  if (!path.empty()) return read_stereo_calibration(path);
+  if (is_lcm_log(source)) return calibration_in(source);
+  throw config::UsageError("--calibration is missing; see --help");
+}
+
+}  // namespace limbcast::calibrate

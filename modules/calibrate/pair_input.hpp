@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/camera/calibration.hpp"
+#include "common/config/options.hpp"
+#include "common/sources/open_source.hpp"
+#include "modules/calibrate/views.hpp"
+
+namespace limbcast::calibrate {
+
+/// Declares --source and what belongs to it.
+void declare_source(config::Section& section, SourceOptions& options);
+
+/// Do the pairs come one after another (video, camera, log) or as separate shots (folder)?
+bool in_sequence(const std::string& source);
+
+/// Calls `take` with each pair of a folder (NAME_left, NAME_right), an LCM log, a video or cameras,
+/// until the source ends, the program is told to end, or `take` returns false. Throws InputError
+/// where the source cannot be used.
+void visit_pairs(const SourceOptions& options, const std::function<bool(const GreyPair&)>& take);
+
+/// The calibration of `path`; without a path the one that an LCM log carries. Throws InputError
+/// where there is none.
+StereoCalibration find_calibration(const std::string& path, const std::string& source);
+
+}  // namespace limbcast::calibrate

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "modules/calibrate/stereo_fit.hpp"
+
+namespace limbcast::calibrate {
+
+/// A line for each view with its errors.
+std::string view_table(const std::vector<ViewFit>& figures);
+/// A line for each pair that was not used, with the reason.
+std::string rejected_table(const std::vector<RejectedView>& rejected);
+/// What was found: errors, focal lengths, baseline.
+std::string summary_text(const StereoFit& fit);
+
+/// Both images with the boards' points and where they stood, over the errors of each view, 8-bit
+/// BGR.
+cv::Mat draw_report(const StereoFit& fit);
+
+}  // namespace limbcast::calibrate

@@ -1,0 +1,323 @@
+#include "modules/calibrate/stereo_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "modules/calibrate/text.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+constexpr double kDegrees = 180.0 / CV_PI;
+
+using Pixels = std::vector<std::vector<cv::Point2f>>;
+using Points = std::vector<std::vector<cv::Point3f>>;
+
+struct Lens {
+  cv::Mat K, D;
+  LensUncertainty uncertainty;
+};
+
+std::vector<cv::Point3f> points_of(const Board& board, const std::vector<int>& ids) {
+  std::vector<cv::Point3f> points;
+  points.reserve(ids.size());
+  for (const int id : ids) points.push_back(board.point_m(id));
+  return points;
+}
+
+Lens fit_lens(const std::vector<const BoardPoints*>& views, const Board& board,
+              const cv::Size& size) {
+  Points points;
+  Pixels pixels;
+  for (const BoardPoints* view : views) {
+    points.push_back(points_of(board, view->ids));
+    pixels.push_back(view->pixels);
+  }
+  Lens lens;
+  cv::Mat deviations;
+  cv::calibrateCamera(points, pixels, size, lens.K, lens.D, cv::noArray(), cv::noArray(),
+                      deviations, cv::noArray(), cv::noArray());
+  const auto deviation = [&](int i) { return deviations.at<double>(i); };
+  lens.uncertainty = {std::max(deviation(0), deviation(1)), std::max(deviation(2), deviation(3))};
+  return lens;
+}
+
+LensCalibration to_calibration(const Lens& lens, const cv::Size& size) {
+  LensCalibration calibration;
+  const cv::Matx33d K = lens.K;
+  calibration.camera = {size.width, size.height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
+  calibration.distortion.assign(lens.D.begin<double>(), lens.D.end<double>());
+  return calibration;
+}
+
+cv::Matx33d camera_matrix(const PinholeCamera& camera) {
+  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+}
+
+template <int kRows, int kColumns>
+cv::Mat to_cv(const Eigen::Matrix<double, kRows, kColumns>& matrix) {
+  cv::Mat result;
+  cv::eigen2cv(matrix, result);
+  return result;
+}
+
+double epipolar_rms_px(const CommonPoints& common, const StereoCalibration& calibration) {
+  const Rectification& rectification = *calibration.rectification;
+  const auto left =
+      rectified_points(common.left, calibration.left, rectification.R1, rectification.P1);
+  const auto right =
+      rectified_points(common.right, calibration.right, rectification.R2, rectification.P2);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    squares += (left[i].y - right[i].y) * (left[i].y - right[i].y);
+  return std::sqrt(squares / static_cast<double>(left.size()));
+}
+
+void set_pose(const CommonPoints& common, const Board& board, const LensCalibration& lens,
+              ViewFit& figures) {
+  cv::Vec3d rotation;
+  cv::Vec3d translation;
+  const std::vector<cv::Point3f> points = points_of(board, common.ids);
+  cv::solvePnP(points, common.left, camera_matrix(lens.camera), lens.distortion, rotation,
+               translation);
+  cv::Matx33d R;
+  cv::Rodrigues(rotation, R);
+  const cv::Point3f middle = 0.5F * (board.point_m(0) + board.point_m(board.num_points() - 1));
+  figures.distance_m = cv::norm(R * cv::Vec3d(middle.x, middle.y, middle.z) + translation);
+  // The third column is the board's normal; a board may be numbered so that it points either way.
+  const double sign = R(2, 2) < 0.0 ? -1.0 : 1.0;
+  figures.tilt_sideways_deg = kDegrees * std::atan2(sign * R(0, 2), sign * R(2, 2));
+  figures.tilt_updown_deg = kDegrees * std::atan2(sign * R(1, 2), sign * R(2, 2));
+}
+
+double rms_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (const ViewFit& view : figures) {
+    squares += view.num_points * error_px(view) * error_px(view);
+    count += view.num_points;
+  }
+  return std::sqrt(squares / count);
+}
+
+double reprojection_px(const ViewFit& view) {
+  return std::hypot(view.reprojection_left_px, view.reprojection_right_px) / std::sqrt(2.0);
+}
+double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
+
+StereoFit fit_once(const std::vector<View>& views, const Board& board, const cv::Size& size) {
+  std::vector<const BoardPoints*> seen_left;
+  std::vector<const BoardPoints*> seen_right;
+  std::vector<CommonPoints> common;
+  Points points;
+  Pixels pixels_left;
+  Pixels pixels_right;
+  for (const View& view : views) {
+    seen_left.push_back(&view.left);
+    seen_right.push_back(&view.right);
+    common.push_back(common_points(view.left, view.right));
+    points.push_back(points_of(board, common.back().ids));
+    pixels_left.push_back(common.back().left);
+    pixels_right.push_back(common.back().right);
+  }
+  Lens left = fit_lens(seen_left, board, size);
+  Lens right = fit_lens(seen_right, board, size);
+  cv::Mat R;
+  cv::Mat T;
+  cv::Mat view_errors;
+  constexpr int kIterations = 100;
+  constexpr double kStep = 1e-7;
+  cv::stereoCalibrate(points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R,
+                      T, cv::noArray(), cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS,
+                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kStep});
+
+  StereoFit fit;
+  fit.calibration.left = to_calibration(left, size);
+  fit.calibration.right = to_calibration(right, size);
+  cv::cv2eigen(R, fit.calibration.R);
+  cv::cv2eigen(T, fit.calibration.T);
+  fit.calibration.rectification = rectify(fit.calibration);
+  fit.left = left.uncertainty;
+  fit.right = right.uncertainty;
+  fit.views = views;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    ViewFit figures;
+    figures.name = views[i].name;
+    figures.num_points = static_cast<int>(common[i].ids.size());
+    figures.reprojection_left_px = view_errors.at<double>(static_cast<int>(i), 0);
+    figures.reprojection_right_px = view_errors.at<double>(static_cast<int>(i), 1);
+    figures.epipolar_px = epipolar_rms_px(common[i], fit.calibration);
+    set_pose(common[i], board, fit.calibration.left, figures);
+    fit.figures.push_back(figures);
+  }
+  fit.reprojection_px = rms_of(fit.figures, reprojection_px);
+  fit.epipolar_px = rms_of(fit.figures, epipolar_px);
+  return fit;
+}
+
+double median_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
+  std::vector<double> errors_px;
+  for (const ViewFit& view : figures) errors_px.push_back(error_px(view));
+  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
+  std::nth_element(errors_px.begin(), middle, errors_px.end());
+  return *middle;
+}
+
+double worst_reprojection_px(const ViewFit& view) {
+  return std::max(view.reprojection_left_px, view.reprojection_right_px);
+}
+
+/// A view that does not fit with the others.
+struct Outlier {
+  std::size_t index = 0;
+  double excess = 0.0;  ///< error as a multiple of what is allowed
+  std::string reason;
+};
+
+Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params) {
+  struct Kind {
+    const char* name;
+    double (*error_px)(const ViewFit&);
+  };
+  Outlier worst;
+  for (const Kind& kind :
+       {Kind{"reprojection", worst_reprojection_px}, Kind{"epipolar", epipolar_px}}) {
+    const double limit_px =
+        std::max(params.outlier_px, params.outlier_factor * median_of(figures, kind.error_px));
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      const double error_px = kind.error_px(figures[i]);
+      if (error_px / limit_px <= worst.excess) continue;
+      worst = {i, error_px / limit_px,
+               text("%s error %.2f px (limit %.2f): wrong points, or the board moved between the "
+                    "two images",
+                    kind.name, error_px, limit_px)};
+    }
+  }
+  return worst;
+}
+
+void check_enough(std::size_t num_views, const FitParams& params) {
+  if (static_cast<int>(num_views) >= params.min_views) return;
+  throw std::runtime_error(
+      text("only %zu good views of the board, at least %d are needed, 15 to 30 are better; do "
+           "--board, --columns and --rows describe the board?",
+           num_views, params.min_views));
+}
+
+int count_tilted(const std::vector<ViewFit>& figures, double tilt_deg) {
+  return static_cast<int>(std::count_if(figures.begin(), figures.end(), [&](const ViewFit& view) {
+    return std::hypot(view.tilt_sideways_deg, view.tilt_updown_deg) >= tilt_deg;
+  }));
+}
+
+void judge_lens(const char* side, const PinholeCamera& camera, const LensUncertainty& uncertainty,
+                const VerdictParams& params, std::vector<std::string>& faults) {
+  if (std::abs(camera.fx / camera.fy - 1.0) > params.max_aspect_error)
+    faults.push_back(
+        text("%s camera: focal lengths %.0f and %.0f px differ by more than %.0f %%; "
+             "are the squares of the board square?",
+             side, camera.fx, camera.fy, 100.0 * params.max_aspect_error));
+  if (camera.cx < 0.0 || camera.cx >= camera.width || camera.cy < 0.0 || camera.cy >= camera.height)
+    faults.push_back(
+        text("%s camera: the principal point (%.0f, %.0f) is outside the image; add "
+             "views with a tilted board",
+             side, camera.cx, camera.cy));
+  if (!(uncertainty.focal_px <= params.max_focal_sigma * camera.fx))
+    faults.push_back(
+        text("%s camera: the focal length %.1f px is known to %.1f px only (limit "
+             "%.0f %%); add views with a tilted board",
+             side, camera.fx, uncertainty.focal_px, 100.0 * params.max_focal_sigma));
+}
+
+}  // namespace
+
+std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels,
+                                          const LensCalibration& lens, const Eigen::Matrix3d& R,
+                                          const Eigen::Matrix<double, 3, 4>& P) {
+  const std::vector<cv::Point2d> exact(pixels.begin(), pixels.end());
+  std::vector<cv::Point2d> result;
+  cv::undistortPoints(exact, result, camera_matrix(lens.camera), lens.distortion, to_cv<3, 3>(R),
+                      to_cv<3, 4>(P));
+  return result;
+}
+
+Rectification rectify(const StereoCalibration& calibration) {
+  const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
+  cv::Mat R1;
+  cv::Mat R2;
+  cv::Mat P1;
+  cv::Mat P2;
+  cv::Mat Q;
+  cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
+                    camera_matrix(calibration.right.camera), calibration.right.distortion, size,
+                    to_cv<3, 3>(calibration.R), to_cv<3, 1>(calibration.T), R1, R2, P1, P2, Q,
+                    cv::CALIB_ZERO_DISPARITY, 0.0, size);
+  Rectification rectification;
+  cv::cv2eigen(R1, rectification.R1);
+  cv::cv2eigen(R2, rectification.R2);
+  cv::cv2eigen(P1, rectification.P1);
+  cv::cv2eigen(P2, rectification.P2);
+  return rectification;
+}
+
+StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
+                     const FitParams& params) {
+  check_enough(views.size(), params);
+  std::vector<View> kept = views;
+  std::vector<RejectedView> outliers;
+  while (true) {
+    StereoFit fit = fit_once(kept, board, image_size);
+    const Outlier outlier = worst_view(fit.figures, params);
+    if (outlier.excess <= 1.0) {
+      fit.outliers = std::move(outliers);
+      return fit;
+    }
+    outliers.push_back({kept[outlier.index].name, outlier.reason});
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(outlier.index));
+    check_enough(kept.size(), params);
+  }
+}
+
+Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params) {
+  Verdict verdict;
+  const StereoCalibration& calibration = fit.calibration;
+  const int tilted = count_tilted(fit.figures, params.min_tilt_deg);
+  if (tilted < params.min_tilted_views)
+    verdict.faults.push_back(
+        text("only %d views show the board tilted by %.0f degrees or more (%d "
+             "are needed): the focal length is a guess",
+             tilted, params.min_tilt_deg, params.min_tilted_views));
+  const Eigen::Vector3d& T = calibration.T;
+  if (std::abs(T.y()) > std::abs(T.x())) {
+    verdict.faults.push_back("one camera stands above the other; mount them side by side");
+  } else if (T.x() > 0.0) {
+    verdict.faults.push_back("the left camera stands to the right of the right one; swap them");
+  }
+  if (fit.reprojection_px > params.max_reprojection_px)
+    verdict.faults.push_back(
+        text("the reprojection error is %.2f px (limit %.2f); is the board flat, "
+             "are --columns and --rows right?",
+             fit.reprojection_px, params.max_reprojection_px));
+  if (fit.epipolar_px > params.max_epipolar_px)
+    verdict.faults.push_back(
+        text("the epipolar error is %.2f px (limit %.2f); were both images "
+             "taken at the same time?",
+             fit.epipolar_px, params.max_epipolar_px));
+  judge_lens("left", calibration.left.camera, fit.left, params, verdict.faults);
+  judge_lens("right", calibration.right.camera, fit.right, params, verdict.faults);
+  if (coverage < params.min_coverage)
+    verdict.faults.push_back(
+        text("the boards cover %.0f %% of the image (limit %.0f %%); outside of "
+             "that the distortion is a guess",
+             100.0 * coverage, 100.0 * params.min_coverage));
+  if (static_cast<int>(fit.views.size()) < params.enough_views)
+    verdict.warnings.push_back(text("only %zu views; %d or more give a better result",
+                                    fit.views.size(), params.enough_views));
+  return verdict;
+}
+
+}  // namespace limbcast::calibrate

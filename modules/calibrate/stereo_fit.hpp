@@ -1,0 +1,88 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/camera/calibration.hpp"
+#include "modules/calibrate/views.hpp"
+
+namespace limbcast::calibrate {
+
+struct FitParams {
+  /// Views without which nothing is computed. Three fix the intrinsics of a lens without
+  /// distortion (Zhang 2000); with five terms of distortion and noise five are the least.
+  int min_views = 5;
+  /// A view is an outlier where its error is more than so many times the median view's, and more
+  /// than so many pixels. Wrong points are off by whole pixels; by eye on OpenCV's example pairs,
+  /// whose good views reach twice the median and 0.5 px.
+  double outlier_factor = 3.0, outlier_px = 0.6;
+};
+
+/// How well one view fits.
+struct ViewFit {
+  std::string name;
+  int num_points = 0;                                              ///< that both images show
+  double reprojection_left_px = 0.0, reprojection_right_px = 0.0;  ///< RMS
+  double epipolar_px = 0.0;  ///< RMS difference of the rows after rectification
+  double distance_m = 0.0;   ///< of the board's middle from the left camera
+  /// Angle between the board and the image, about the image's y axis (to the left or right) and x
+  /// axis (up or down).
+  double tilt_sideways_deg = 0.0, tilt_updown_deg = 0.0;
+};
+
+/// Standard deviations as cv::calibrateCamera estimates them from the residuals.
+struct LensUncertainty {
+  double focal_px = 0.0, principal_point_px = 0.0;
+};
+
+struct StereoFit {
+  StereoCalibration calibration;  ///< with rectification
+  std::vector<View> views;        ///< that it rests on
+  std::vector<ViewFit> figures;   ///< one for each of them
+  std::vector<RejectedView> outliers;
+  double reprojection_px = 0.0, epipolar_px = 0.0;  ///< RMS of all points
+  LensUncertainty left, right;
+};
+
+/// Lenses and pose of a stereo pair from views of a board (Zhang 2000; cv::calibrateCamera for each
+/// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
+/// one is an outlier. Throws std::runtime_error where there are too few views.
+StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
+                     const FitParams& params = {});
+
+/// Rectification as cv::stereoRectify gives it (Bouguet), without black borders.
+Rectification rectify(const StereoCalibration& calibration);
+
+/// Where these pixels of a raw image stand in the rectified one.
+std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels,
+                                          const LensCalibration& lens, const Eigen::Matrix3d& R,
+                                          const Eigen::Matrix<double, 3, 4>& P);
+
+struct Verdict {
+  std::vector<std::string> faults;    ///< why the result must not be used; empty: it may
+  std::vector<std::string> warnings;  ///< what makes it worse than it could be
+};
+
+struct VerdictParams {
+  /// RMS over all points. A fit of sharp pictures of a flat board reaches 0.1 to 0.4 px; printing
+  /// on paper that bends, 0.5.
+  double max_reprojection_px = 1.0;
+  /// Rows must agree to a fraction of a pixel, or the matcher finds nothing in fine texture.
+  double max_epipolar_px = 0.8;
+  /// Standard deviation of the focal length as a share of it; depth is wrong by the same share.
+  double max_focal_sigma = 0.01;
+  /// Boards parallel to the image do not tell the focal length from the distance (Zhang 2000), and
+  /// their standard deviation does not show it: so many views must be tilted by so much.
+  int min_tilted_views = 3;
+  double min_tilt_deg = 8.0;
+  /// Difference of the focal lengths fx, fy of one lens as a share: pixels are square.
+  double max_aspect_error = 0.05;
+  /// Share of the image that the boards must have covered: outside of it distortion is a guess.
+  double min_coverage = 0.35;
+  /// Fewer views are a warning.
+  int enough_views = 10;
+};
+
+Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params = {});
+
+}  // namespace limbcast::calibrate

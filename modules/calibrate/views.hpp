@@ -1,0 +1,79 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modules/calibrate/board.hpp"
+
+namespace limbcast::calibrate {
+
+/// A pair as a source gives it, 8-bit grey.
+struct GreyPair {
+  std::string name;
+  cv::Mat left, right;
+};
+
+/// The board as both cameras see it at once.
+struct View {
+  std::string name;
+  BoardPoints left, right;
+};
+
+struct RejectedView {
+  std::string name, reason;
+};
+
+struct ViewParams {
+  /// Points that both images must show. A pose has 6 unknowns and 4 points give it; more tell
+  /// lens and error apart.
+  int min_points = 12;
+  /// Edges of a sharp picture are up to about 3 px wide, as cv::estimateChessboardSharpness says;
+  /// OpenCV's own example pairs reach 3.4. Wider: motion or focus.
+  double max_edge_width_px = 5.0;
+  /// In a video or live: how far the points may move from one frame to the next [px], more is
+  /// motion that two cameras do not see at the same time; chosen so that hands that hold a board
+  /// still pass.
+  double max_motion_px = 2.0;
+  /// In a video or live: a view that differs less than this from all others adds nothing, as a
+  /// share of the image's width.
+  double min_change = 0.04;
+};
+
+/// Gathers views that are fit for calibration and says why others are not.
+class ViewCollector {
+ public:
+  /// `in_sequence`: the pairs come from a video or live camera, not as separate shots.
+  ViewCollector(const Board& board, bool in_sequence, const ViewParams& params = {})
+      : board_(board), in_sequence_(in_sequence), params_(params) {}
+
+  /// True: the pair gave a view. Throws InputError where its size is not that of the first pair.
+  bool add(const GreyPair& pair);
+
+  const std::vector<View>& views() const { return views_; }
+  const std::vector<RejectedView>& rejected() const { return rejected_; }
+  const cv::Size& image_size() const { return image_size_; }
+
+ private:
+  void check_size(const GreyPair& pair);
+  std::string find_view(const GreyPair& pair, std::optional<View>& view);
+  std::string why_not(const View& view) const;
+
+  Board board_;
+  bool in_sequence_;
+  ViewParams params_;
+  cv::Size image_size_;
+  std::optional<View> previous_;  ///< in the pair before, good or not
+  std::vector<View> views_;
+  std::vector<RejectedView> rejected_;
+};
+
+/// Points that both images show, in the same order.
+struct CommonPoints {
+  std::vector<int> ids;
+  std::vector<cv::Point2f> left, right;
+};
+CommonPoints common_points(const BoardPoints& left, const BoardPoints& right);
+
+}  // namespace limbcast::calibrate

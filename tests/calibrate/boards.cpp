@@ -1,0 +1,162 @@
+#include "tests/calibrate/boards.hpp"
+
+#include <Eigen/Geometry>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace limbcast::calibrate {
+namespace {
+
+cv::Matx33d camera_matrix(const PinholeCamera& camera) {
+  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
+}
+
+/// Turns the board about its middle, which stands at `middle_m`.
+BoardPose pose_about_middle(const Board& board, const cv::Vec3d& rotation,
+                            const cv::Vec3d& middle_m) {
+  cv::Matx33d R;
+  cv::Rodrigues(rotation, R);
+  const cv::Point3f middle = 0.5F * (board.point_m(0) + board.point_m(board.num_points() - 1));
+  const cv::Matx31d shift = R * cv::Matx31d(middle.x, middle.y, middle.z);
+  return {rotation, middle_m - cv::Vec3d(shift(0), shift(1), shift(2))};
+}
+
+BoardPose in_right_camera(const BoardPose& pose, const StereoCalibration& cameras) {
+  cv::Mat R;
+  cv::Mat T;
+  cv::eigen2cv(cameras.R, R);
+  cv::eigen2cv(cameras.T, T);
+  cv::Mat turn;
+  cv::Rodrigues(R, turn);
+  BoardPose result;
+  cv::composeRT(pose.rotation, pose.translation_m, turn, T, result.rotation, result.translation_m);
+  return result;
+}
+
+BoardPoints project(const Board& board, const BoardPose& pose, const LensCalibration& lens,
+                    double sigma_px, cv::RNG& random) {
+  std::vector<cv::Point3f> points;
+  for (int id = 0; id < board.num_points(); ++id) points.push_back(board.point_m(id));
+  std::vector<cv::Point2f> pixels;
+  cv::projectPoints(points, pose.rotation, pose.translation_m, camera_matrix(lens.camera),
+                    lens.distortion, pixels);
+  BoardPoints result;
+  for (int id = 0; id < board.num_points(); ++id) {
+    const cv::Point2f noise(static_cast<float>(random.gaussian(sigma_px)),
+                            static_cast<float>(random.gaussian(sigma_px)));
+    const cv::Point2f pixel = pixels[id] + noise;
+    if (!cv::Rect2f(0, 0, static_cast<float>(lens.camera.width - 1),
+                    static_cast<float>(lens.camera.height - 1))
+             .contains(pixel))
+      continue;
+    result.ids.push_back(id);
+    result.pixels.push_back(pixel);
+  }
+  return result;
+}
+
+/// Row and column of point 0 in draw_board's picture, in squares: a margin, then a square or half a
+/// circle's cell.
+double first_point_squares(const Board& board) {
+  return board.kind == BoardKind::kCircles ? 1.5 : 2.0;
+}
+
+cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration& lens) {
+  // Each pixel is the mean of 2 x 2 rays.
+  constexpr int kRays = 2;
+  constexpr double kPixelsPerSquare = 50.0;
+  constexpr uchar kBackground = 120;
+  const cv::Size size(kRays * lens.camera.width, kRays * lens.camera.height);
+  std::vector<cv::Point2f> pixels;
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u)
+      pixels.emplace_back((static_cast<float>(u) + 0.5F) / kRays - 0.5F,
+                          (static_cast<float>(v) + 0.5F) / kRays - 0.5F);
+  }
+  std::vector<cv::Point2f> rays;
+  cv::undistortPoints(pixels, rays, camera_matrix(lens.camera), lens.distortion);
+  cv::Matx33d R;
+  cv::Rodrigues(pose.rotation, R);
+  // A point (x, y, 0) of the board is seen in the direction H (x, y, 1).
+  const cv::Matx33d H(R(0, 0), R(0, 1), pose.translation_m[0],  //
+                      R(1, 0), R(1, 1), pose.translation_m[1],  //
+                      R(2, 0), R(2, 1), pose.translation_m[2]);
+  const cv::Matx33d inverse = H.inv();
+  const double first_px = first_point_squares(board) * kPixelsPerSquare - 0.5;
+  const double scale = kPixelsPerSquare / board.square_m;
+  cv::Mat map(size, CV_32FC2);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const cv::Matx31d place = inverse * cv::Matx31d(rays[i].x, rays[i].y, 1.0);
+    map.at<cv::Vec2f>(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width) = {
+        static_cast<float>(first_px + scale * place(0) / place(2)),
+        static_cast<float>(first_px + scale * place(1) / place(2))};
+  }
+  cv::Mat fine;
+  cv::remap(draw_board(board, scale), fine, map, cv::noArray(), cv::INTER_LINEAR,
+            cv::BORDER_CONSTANT, cv::Scalar(kBackground));
+  cv::Mat image;
+  cv::resize(fine, image, {}, 1.0 / kRays, 1.0 / kRays, cv::INTER_AREA);
+  return image;
+}
+
+}  // namespace
+
+StereoCalibration true_cameras() {
+  StereoCalibration cameras;
+  cameras.left = {{640, 480, 531.2, 530.6, 322.1, 241.3}, {-0.301, 0.102, 0.0004, -0.0003, 0.0}};
+  cameras.right = {{640, 480, 529.4, 529.9, 317.8, 237.2}, {-0.296, 0.097, -0.0003, 0.0005, 0.0}};
+  cameras.R = (Eigen::AngleAxisd(-0.02, Eigen::Vector3d::UnitY()) *
+               Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX()) *
+               Eigen::AngleAxisd(-0.007, Eigen::Vector3d::UnitZ()))
+                  .toRotationMatrix();
+  cameras.T = {-0.12, 0.0008, -0.0025};
+  return cameras;
+}
+
+std::vector<BoardPose> varied_poses(const Board& board, int count) {
+  constexpr int kColumns = 3, kRows = 3;
+  std::vector<BoardPose> poses;
+  cv::RNG random(3);
+  for (int i = 0; i < count; ++i) {
+    const double z_m = 0.55 + 0.1 * (i % 4);
+    const double tilt = random.uniform(0.25, 0.55) * (i % 2 == 0 ? 1.0 : -1.0);
+    const cv::Vec3d rotation = i % 4 < 2 ? cv::Vec3d(tilt, 0.3 * tilt, random.uniform(-0.2, 0.2))
+                                         : cv::Vec3d(0.3 * tilt, tilt, random.uniform(-0.2, 0.2));
+    const double x_m = z_m * 0.25 * (i % kColumns - 1) + 0.06;
+    const double y_m = z_m * 0.2 * (i / kColumns % kRows - 1);
+    poses.push_back(pose_about_middle(board, rotation, {x_m, y_m, z_m}));
+  }
+  return poses;
+}
+
+std::vector<BoardPose> frontal_poses(const Board& board, int count) {
+  std::vector<BoardPose> poses;
+  for (int i = 0; i < count; ++i)
+    poses.push_back(pose_about_middle(board, {0.0, 0.0, 0.0},
+                                      {0.06 + 0.15 * (i % 3 - 1), 0.1 * (i / 3 % 3 - 1), 0.6}));
+  return poses;
+}
+
+View project_board(const Board& board, const BoardPose& pose, const StereoCalibration& cameras,
+                   const std::string& name, double sigma_px) {
+  cv::RNG random(std::hash<std::string>()(name));
+  return {name, project(board, pose, cameras.left, sigma_px, random),
+          project(board, in_right_camera(pose, cameras), cameras.right, sigma_px, random)};
+}
+
+std::vector<View> project_boards(const Board& board, const std::vector<BoardPose>& poses,
+                                 const StereoCalibration& cameras) {
+  std::vector<View> views;
+  for (const BoardPose& pose : poses)
+    views.push_back(project_board(board, pose, cameras, "view_" + std::to_string(views.size())));
+  return views;
+}
+
+GreyPair render_board(const Board& board, const BoardPose& pose, const StereoCalibration& cameras,
+                      const std::string& name) {
+  return {name, render(board, pose, cameras.left),
+          render(board, in_right_camera(pose, cameras), cameras.right)};
+}
+
+}  // namespace limbcast::calibrate

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "common/camera/calibration.hpp"
+#include "modules/calibrate/coverage.hpp"
+#include "modules/calibrate/views.hpp"
+
+namespace limbcast::calibrate {
+
+/// A pair of VGA cameras with lens distortion, not parallel, 120 mm apart.
+StereoCalibration true_cameras();
+
+/// p_camera = R * p_board + t, of the left camera.
+struct BoardPose {
+  cv::Vec3d rotation;  ///< Rodrigues vector
+  cv::Vec3d translation_m;
+};
+
+/// Poses that fill both images, tilted either way, near and far.
+std::vector<BoardPose> varied_poses(const Board& board, int count);
+/// The same places, but parallel to the image and all at one distance.
+std::vector<BoardPose> frontal_poses(const Board& board, int count);
+
+/// Where the board's points stand in both images, with noise of `sigma_px`: no pictures needed.
+View project_board(const Board& board, const BoardPose& pose, const StereoCalibration& cameras,
+                   const std::string& name, double sigma_px = 0.1);
+std::vector<View> project_boards(const Board& board, const std::vector<BoardPose>& poses,
+                                 const StereoCalibration& cameras);
+
+/// Pictures of the board on a grey background, as lenses with that distortion give them.
+GreyPair render_board(const Board& board, const BoardPose& pose, const StereoCalibration& cameras,
+                      const std::string& name);
+
+}  // namespace limbcast::calibrate

@@ -1,0 +1,147 @@
+#include "modules/calibrate/stereo_fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/calibrate/boards.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const cv::Size kVga(640, 480);
+
+/// Focal length to 0.3 %, baseline to 0.5 %: what depth of a few per cent at 4 m needs.
+void expect_found(const StereoCalibration& found, const StereoCalibration& truth) {
+  EXPECT_NEAR(found.left.camera.fx, truth.left.camera.fx, 0.003 * truth.left.camera.fx);
+  EXPECT_NEAR(found.left.camera.fy, truth.left.camera.fy, 0.003 * truth.left.camera.fy);
+  EXPECT_NEAR(found.right.camera.fx, truth.right.camera.fx, 0.003 * truth.right.camera.fx);
+  EXPECT_NEAR(found.T.norm(), truth.T.norm(), 0.005 * truth.T.norm());
+  constexpr double kTenthOfDegree = 1.745e-3;
+  EXPECT_NEAR((found.R - truth.R).cwiseAbs().maxCoeff(), 0.0, 2.0 * kTenthOfDegree);
+}
+
+StereoFit fit_rendered(const Board& board, int count) {
+  ViewCollector collector(board, false);
+  for (const BoardPose& pose : varied_poses(board, count))
+    collector.add(render_board(board, pose, true_cameras(),
+                               "view_" + std::to_string(collector.views().size())));
+  EXPECT_GE(static_cast<int>(collector.views().size()), count * 3 / 4);
+  return fit_stereo(collector.views(), board, collector.image_size());
+}
+
+TEST(StereoFit, FindsTheCamerasFromPicturesOfAChessboard) {
+  const StereoFit fit = fit_rendered({}, 10);
+  expect_found(fit.calibration, true_cameras());
+  EXPECT_LT(fit.reprojection_px, 0.2);
+  EXPECT_LT(fit.epipolar_px, 0.2);
+}
+
+TEST(StereoFit, FindsTheCamerasFromPicturesOfACharucoBoard) {
+  Board board;
+  board.kind = BoardKind::kCharuco;
+  board.square_m = 0.03;
+  board.marker_m = 0.021;
+  const StereoFit fit = fit_rendered(board, 16);
+  expect_found(fit.calibration, true_cameras());
+}
+
+TEST(StereoFit, FindsTheCamerasFromPicturesOfCircles) {
+  Board board;
+  board.kind = BoardKind::kCircles;
+  const StereoFit fit = fit_rendered(board, 12);
+  expect_found(fit.calibration, true_cameras());
+}
+
+TEST(StereoFit, LeavesOutAViewWhoseBoardMovedBetweenTheImages) {
+  const Board board;
+  std::vector<View> views = project_boards(board, varied_poses(board, 14), true_cameras());
+  for (cv::Point2f& pixel : views[5].right.pixels) pixel += {0.0F, 6.0F};
+  const StereoFit fit = fit_stereo(views, board, kVga);
+  ASSERT_EQ(fit.outliers.size(), 1U);
+  EXPECT_EQ(fit.outliers[0].name, "view_5");
+  EXPECT_THAT(fit.outliers[0].reason, HasSubstr("the board moved between the two images"));
+  expect_found(fit.calibration, true_cameras());
+}
+
+TEST(StereoFit, NeedsViewsOfTheBoard) {
+  const Board board;
+  const std::vector<View> views = project_boards(board, varied_poses(board, 3), true_cameras());
+  EXPECT_THAT(testing::error_of<std::runtime_error>([&] { fit_stereo(views, board, kVga); }),
+              HasSubstr("only 3 good views of the board, at least 5 are needed"));
+}
+
+TEST(StereoFit, MeasuresDistanceAndTiltOfTheBoard) {
+  const Board board;
+  const StereoFit fit =
+      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  // The first pose is at z = 0.55 m, left of and above the middle, tipped by 0.25 rad or more.
+  EXPECT_NEAR(fit.figures[0].distance_m, std::hypot(0.55, 0.55 * 0.25 - 0.06, 0.55 * 0.2), 0.005);
+  EXPECT_GT(std::abs(fit.figures[0].tilt_updown_deg), 12.0);
+}
+
+TEST(Judge, AcceptsAGoodFit) {
+  const Board board;
+  const StereoFit fit =
+      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  const Verdict verdict = judge(fit, 0.8);
+  EXPECT_THAT(verdict.faults, IsEmpty());
+  EXPECT_THAT(verdict.warnings, IsEmpty());
+}
+
+TEST(Judge, RefusesViewsThatAreAllParallelToTheImage) {
+  const Board board;
+  StereoCalibration cameras = true_cameras();
+  cameras.left.distortion = cameras.right.distortion = {};
+  const StereoFit fit =
+      fit_stereo(project_boards(board, frontal_poses(board, 12), cameras), board, kVga);
+  EXPECT_THAT(judge(fit, 0.8).faults, Contains(HasSubstr("only 0 views show the board tilted")));
+}
+
+TEST(Judge, RefusesCamerasThatAreSwapped) {
+  const Board board;
+  std::vector<View> views = project_boards(board, varied_poses(board, 12), true_cameras());
+  for (View& view : views) std::swap(view.left, view.right);
+  EXPECT_THAT(judge(fit_stereo(views, board, kVga), 0.8).faults, Contains(HasSubstr("swap them")));
+}
+
+TEST(Judge, RefusesWhatCoversLittleOfTheImage) {
+  const Board board;
+  const StereoFit fit =
+      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  EXPECT_THAT(judge(fit, 0.2).faults, Contains(HasSubstr("the boards cover 20 % of the image")));
+}
+
+TEST(Advise, AsksForNothingMoreWhenViewsAreVaried) {
+  const Board board;
+  const StereoFit fit =
+      fit_stereo(project_boards(board, varied_poses(board, 24), true_cameras()), board, kVga);
+  for (const std::string& sentence : advise(fit, kVga))
+    EXPECT_THAT(sentence, ::testing::Not(HasSubstr("degrees")));
+}
+
+TEST(Advise, AsksForTiltDistanceAndEmptyParts) {
+  const Board board;
+  StereoCalibration cameras = true_cameras();
+  std::vector<View> views = project_boards(board, varied_poses(board, 8), cameras);
+  StereoFit fit = fit_stereo(views, board, kVga);
+  fit.views = {views[0]};
+  fit.figures = {fit.figures[0]};
+  fit.figures[0].tilt_sideways_deg = fit.figures[0].tilt_updown_deg = 2.0;
+  const std::vector<std::string> advice = advise(fit, kVga);
+  EXPECT_THAT(advice,
+              Contains(HasSubstr("turn the board left and right by 20 to 45 degrees (0 of")));
+  EXPECT_THAT(advice, Contains(HasSubstr("tip the board up and down")));
+  EXPECT_THAT(advice, Contains(HasSubstr("nearer and farther")));
+  EXPECT_THAT(advice, Contains(HasSubstr("left image: ")));
+  EXPECT_THAT(advice, Contains(HasSubstr("bottom right")));
+}
+
+}  // namespace
+}  // namespace limbcast::calibrate
