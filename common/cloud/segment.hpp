@@ -16,7 +16,7 @@ enum class SegmentFilter : std::int8_t {
   kNone = 0,           ///< valid
   kTooFewPoints = 1,   ///< figure: points
   kTooManyPoints = 2,  ///< figure: points
-  kSeedNotHead = 3,    ///< figure: height of the seed over the centroid [m]
+  kSeedNotHead = 3,    ///< figure: seed over the centroid, below the limit; or beside it, above [m]
   kTooSparse = 4,  ///< figure: points per square metre of visible surface, relative to the sensor's
   kSamePerson = 5,     ///< figure: share of the cluster that a better seed holds too
   kNotHeadShaped = 6,  ///< figure: score of the head classifier

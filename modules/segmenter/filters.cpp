@@ -1,6 +1,7 @@
 #include "modules/segmenter/filters.hpp"
 
 namespace limbcast::segmenter {
+
 std::optional<Rejection> check_validity(const ClusterFigures& figures, const FilterParams& params) {
   const auto points = static_cast<float>(figures.points);
   // Limits are areas, so that they hold at any distance and resolution; the figures are points, as
@@ -15,6 +16,10 @@ std::optional<Rejection> check_validity(const ClusterFigures& figures, const Fil
   if (figures.seed_over_centroid_m < params.min_seed_over_centroid_m) {
     return Rejection{SegmentFilter::kSeedNotHead, figures.seed_over_centroid_m,
                      params.min_seed_over_centroid_m};
+  }
+  if (figures.seed_beside_centroid_m > params.max_seed_beside_centroid_m) {
+    return Rejection{SegmentFilter::kSeedNotHead, figures.seed_beside_centroid_m,
+                     params.max_seed_beside_centroid_m};
   }
   if (figures.density < params.min_density) {
     return Rejection{SegmentFilter::kTooSparse, figures.density, params.min_density};

@@ -16,7 +16,6 @@ struct Rejection {
 };
 
 /// The four filters of section III-B.2 in the paper's order; nothing for a cluster that passes all.
-/// `point_area_m2`: surface that one point of the cluster stands for, facing the sensor (mean).
 std::optional<Rejection> check_validity(const ClusterFigures& figures, const FilterParams& params);
 
 }  // namespace limbcast::segmenter

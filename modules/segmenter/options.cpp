@@ -1,8 +1,27 @@
 #include "modules/segmenter/options.hpp"
 
 #include <map>
+#include <string>
 
 namespace limbcast::segmenter {
+
+namespace {
+
+void declare_filters(config::Section& section, const std::string& prefix, const std::string& note,
+                     FilterParams& filters) {
+  section.add(prefix + "min-area-m2", filters.min_area_m2, "m^2",
+              "visible surface of the smallest person" + note, {0.0F, 10.0F});
+  section.add(prefix + "max-area-m2", filters.max_area_m2, "m^2",
+              "visible surface of the largest person" + note, {0.0F, 100.0F});
+  section.add(prefix + "min-seed-over-centroid-m", filters.min_seed_over_centroid_m, "m",
+              "how far a head stands over its cluster's centroid" + note, {-2.0F, 2.0F});
+  section.add(prefix + "max-seed-beside-centroid-m", filters.max_seed_beside_centroid_m, "m",
+              "how far a head stands beside its cluster's centroid" + note, {0.0F, 2.0F});
+  section.add(prefix + "min-density", filters.min_density, "",
+              "share of a cluster's outline that its points must fill" + note, {0.0F, 1.0F});
+}
+
+}  // namespace
 
 void declare(config::Section& section, SegmenterOptions& options) {
   section.add_choice(
@@ -22,14 +41,8 @@ void declare(config::Section& section, SegmenterOptions& options) {
               "radius of the cylinder a human can reach", {0.3F, 3.0F});
   section.add("ground-cut-m", params.joint.ground_cut_m, "m", "points lower than this are ground",
               {-1.0F, 0.5F});
-  section.add("min-area-m2", params.filters.min_area_m2, "m^2",
-              "visible surface of the smallest person", {0.0F, 10.0F});
-  section.add("max-area-m2", params.filters.max_area_m2, "m^2",
-              "visible surface of the largest person", {0.0F, 100.0F});
-  section.add("min-seed-over-centroid-m", params.filters.min_seed_over_centroid_m, "m",
-              "how far a head stands over its cluster's centroid", {-2.0F, 2.0F});
-  section.add("min-density", params.filters.min_density, "",
-              "share of a cluster's outline that its points must fill", {0.0F, 1.0F});
+  declare_filters(section, "", "", params.filters);
+  declare_filters(section, "paper-", " (growing paper)", params.paper_filters);
   section.add("min-skin-log-ratio", params.skin.min_log_ratio, "",
               "log likelihood ratio above which a colour is skin", {-20.0F, 20.0F});
   section.add("range-image-margin-m", params.range_image_margin_m, "m",

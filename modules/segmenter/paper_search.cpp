@@ -68,7 +68,7 @@ std::vector<PaperCluster> find_people_as_paper(const Cloud& cloud, const Lattice
     const std::uint32_t start = lattice.source[lattice.index(seed.u, seed.v)];
     cluster.points = grow_cluster(cloud, start, down, params.paper, params.reach, search);
     cluster.figures = measure(cloud, lattice, seed, cluster.points, params);
-    cluster.rejection = check_validity(cluster.figures, params.filters);
+    cluster.rejection = check_validity(cluster.figures, params.paper_filters);
     clusters.push_back(std::move(cluster));
   }
   reject_twins(cloud.points_m.size(), clusters);

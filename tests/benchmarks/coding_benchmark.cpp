@@ -7,15 +7,12 @@
 
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
-#include <stdexcept>
 
 #include "common/lcm_io/image_codec.hpp"
-#include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/quantization.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
-#include "modules/reconstructor/stage.hpp"
-#include "tests/support/child_process.hpp"
+#include "tests/benchmarks/demo_frame.hpp"
 
 namespace limbcast {
 namespace {
@@ -23,35 +20,7 @@ namespace {
 constexpr int kJpegQuality = 85;  // what live cameras are coded with by default
 constexpr double kBytesPerKilobyte = 1000.0;
 
-/// The first frame of the demo log: its images and the cloud made from them.
-struct DemoFrame {
-  StereoImages images;
-  Cloud cloud;
-};
-
-DemoFrame read_demo_frame() {
-  reconstructor::Stage stage{reconstructor::StageOptions{}};
-  lcm_io::LogReader log(test::repository_file("logs/demo.log"));
-  while (const auto event = log.next()) {
-    const int size = static_cast<int>(event->data.size());
-    if (event->channel == "STEREO_CALIBRATION") {
-      stereo_calibration_t calibration;
-      if (calibration.decode(event->data.data(), 0, size) == size)
-        stage.on_calibration(calibration);
-    } else if (event->channel == "STEREO_IMAGES") {
-      stereo_images_t message;
-      if (message.decode(event->data.data(), 0, size) != size) continue;
-      const StereoImages images = lcm_io::from_message(message);
-      return {images, stage.find(images.stamp.sensor)->reconstruct(images)};
-    }
-  }
-  throw std::runtime_error("logs/demo.log holds no frame");
-}
-
-const DemoFrame& demo_frame() {
-  static const DemoFrame frame = read_demo_frame();
-  return frame;
-}
+using test::demo_frame;
 
 void set_size(benchmark::State& state, std::size_t bytes) {
   state.counters["kB"] = static_cast<double>(bytes) / kBytesPerKilobyte;

@@ -267,6 +267,26 @@ TEST(Filters, RejectASeedThatIsNotOverTheCentroid) {
   EXPECT_FLOAT_EQ(rejection->limit, FilterParams().min_seed_over_centroid_m);
 }
 
+TEST(Filters, RejectASeedFarBesideTheCentroid) {
+  ClusterFigures figures = person();
+  figures.seed_beside_centroid_m = 0.5F;  // a hand raised high, at the end of an arm
+  const auto rejection = check_validity(figures, kPaperFilters);
+  ASSERT_TRUE(rejection.has_value());
+  EXPECT_EQ(rejection->filter, SegmentFilter::kSeedNotHead);
+  EXPECT_FLOAT_EQ(rejection->figure, 0.5F);
+  EXPECT_FLOAT_EQ(rejection->limit, kPaperFilters.max_seed_beside_centroid_m);
+}
+
+TEST(Filters, OfThePaperAreStricterThanThoseOfJointGrowing) {
+  const FilterParams loose;
+  EXPECT_GT(kPaperFilters.min_area_m2, loose.min_area_m2);
+  EXPECT_LT(kPaperFilters.max_area_m2, loose.max_area_m2);
+  EXPECT_GT(kPaperFilters.min_seed_over_centroid_m, loose.min_seed_over_centroid_m);
+  EXPECT_LT(kPaperFilters.max_seed_beside_centroid_m, loose.max_seed_beside_centroid_m);
+  EXPECT_GT(kPaperFilters.min_density, loose.min_density);
+  EXPECT_FALSE(check_validity(person(), kPaperFilters).has_value());
+}
+
 TEST(Filters, RejectALowDensity) {
   ClusterFigures figures = person();
   figures.density = 0.1F;
@@ -326,7 +346,7 @@ TEST(PaperSearch, RejectsASeedAtTheLowerEnd) {
 }
 
 TEST(PaperSearch, LeavesOneClusterToTwoSeedsOfOnePerson) {
-  const auto clusters = clusters_from({{20, 14}, {32, 10}});
+  const auto clusters = clusters_from({{26, 13}, {32, 10}});
   ASSERT_THAT(clusters, SizeIs(2));
   EXPECT_FALSE(clusters[0].rejection.has_value());
   EXPECT_EQ(clusters[0].seed.u, 32);  // higher, and nearer to the centroid's axis
