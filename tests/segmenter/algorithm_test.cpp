@@ -338,6 +338,21 @@ TEST(PaperSearch, GrowsTheWholeSurfaceFromItsSeedAndNothingElse) {
   EXPECT_NEAR(clusters[0].figures.seed_over_centroid_m, 11.5F * 2.0F / 52.0F, 1e-4F);
 }
 
+TEST(PaperSearch, MeasuresHowManyRaysThroughTheOutlineHit) {
+  const Cloud full = plate_cloud();
+  const Cloud half = camera_cloud([](int u, int v) {
+    return u >= 16 && u < 48 && v >= 8 && v < 36 && (u + v) % 2 == 0 ? 2.0F : 0.0F;
+  });
+  const auto density = [](const Cloud& cloud) {
+    const Lattice lattice = thin(cloud, make_level_frame(cloud.stamp.gravity, std::nullopt), 1);
+    return find_people_as_paper(cloud, lattice, {seed_at(lattice, 32, 10)},
+                                *make_kd_tree_search(cloud), {})[0]
+        .figures.density;
+  };
+  EXPECT_GT(density(full), 0.9F);
+  EXPECT_LT(density(half), 0.8F * density(full));
+}
+
 TEST(PaperSearch, RejectsASeedAtTheLowerEnd) {
   const auto clusters = clusters_from({{32, 34}});
   ASSERT_THAT(clusters, SizeIs(1));
