@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
+#include <fstream>
 #include <limbcast/module_status_t.hpp>
 #include <optional>
 #include <sstream>
@@ -13,6 +15,7 @@ namespace limbcast::test {
 namespace {
 
 using ::testing::MatchesRegex;
+using ::testing::StartsWith;
 
 struct LiveModule {
   std::string program;
@@ -55,6 +58,23 @@ TEST_P(EveryModule, TellsItsStatusAndEndsCleanlyWhenItIsTold) {
   std::istringstream lines(process.output());
   for (std::string line; std::getline(lines, line);)
     EXPECT_THAT(line, MatchesRegex(GetParam().name + " (ERROR|WARNING|INFO|DEBUG) .+"));
+}
+
+TEST(Journal, GetsTheLevelOfEachLineWhereStderrIsItsStream) {
+  const std::string output = temporary_folder("journal") + "/stderr.txt";
+  std::ofstream(output).flush();
+  struct stat file {};
+  ASSERT_EQ(stat(output.c_str(), &file), 0);
+  const std::string stream =
+      "JOURNAL_STREAM=" + std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
+  ChildProcess failing({program("limbcast-replay"), "/nowhere/in.log", "out.log"}, output,
+                       {stream});
+  EXPECT_EQ(failing.wait(), 2);
+  EXPECT_THAT(failing.output(), StartsWith("<3>limbcast-replay: /nowhere/in.log"));
+  ChildProcess elsewhere({program("limbcast-replay"), "/nowhere/in.log", "out.log"}, output,
+                         {"JOURNAL_STREAM=1:2"});
+  EXPECT_EQ(elsewhere.wait(), 2);
+  EXPECT_THAT(elsewhere.output(), StartsWith("limbcast-replay: "));
 }
 
 INSTANTIATE_TEST_SUITE_P(
