@@ -1,6 +1,6 @@
 #include "modules/evaluate/tracking.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kDegrees = 57.29577951308232;
+constexpr float kDegrees = 57.29577951F;
 constexpr double kMicroseconds = 1e6;
 constexpr float kMillimetres = 1000.0F;
 
@@ -110,20 +110,18 @@ void count_switches(const Life& life, TrackingTally& tally) {
 
 /// A quantity of a person, nothing where it is not known.
 using Quantity = std::function<std::optional<Vector3f>(const BodyPose&)>;
-/// How far it moved between two frames, in the unit of the speed at rest.
-using Movement = std::function<double(const Vector3f& from, const Vector3f& to)>;
 
 /// Calls `visit(begin, end)` for each longest run of moments between which the true quantity rests.
 template <class Visit>
-void for_each_rest(const Life& life, const Quantity& quantity, const Movement& movement,
-                   double rest_speed, const Visit& visit) {
+void for_each_rest(const Life& life, const Quantity& quantity, double rest_speed,
+                   const Visit& visit) {
   std::size_t begin = 0;
   for (std::size_t i = 1; i <= life.size(); ++i) {
     bool rests = false;
     if (i < life.size()) {
       const auto before = quantity(*life[i - 1].truth), now = quantity(*life[i].truth);
       rests = before && now &&
-              movement(*before, *now) <= rest_speed * seconds_between(life[i - 1], life[i]);
+              (*now - *before).norm() <= rest_speed * seconds_between(life[i - 1], life[i]);
     }
     if (rests) continue;
     visit(begin, i);
@@ -142,28 +140,29 @@ Vector3f middle(const std::vector<Vector3f>& values) {
   return result;
 }
 
-std::vector<double> deviations(const std::vector<Vector3f>& values, const Movement& distance) {
+std::vector<double> deviations(const std::vector<Vector3f>& values) {
   const Vector3f center = middle(values);
   std::vector<double> result;
-  for (const Vector3f& value : values) result.push_back(distance(center, value));
+  for (const Vector3f& value : values) result.push_back((value - center).norm());
   return result;
 }
 
-void add_rests(const Life& life, const Quantity& quantity, const Movement& movement,
-               double rest_speed, int min_frames, TrackingTally::Groups& untracked,
-               TrackingTally::Groups& tracked) {
-  for_each_rest(life, quantity, movement, rest_speed, [&](std::size_t begin, std::size_t end) {
-    std::vector<Vector3f> values_untracked, values_tracked;
+/// Of errors, not of places: nobody stands still to the millimetre.
+void add_rests(const Life& life, const Quantity& quantity, double rest_speed, int min_frames,
+               TrackingTally::Groups& untracked, TrackingTally::Groups& tracked) {
+  for_each_rest(life, quantity, rest_speed, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vector3f> errors_untracked, errors_tracked;
     for (std::size_t i = begin; i < end; ++i) {
       if (life[i].untracked == nullptr || life[i].tracked == nullptr) continue;
+      const auto truth = quantity(*life[i].truth);
       const auto before = quantity(*life[i].untracked), after = quantity(*life[i].tracked);
-      if (!before || !after) continue;
-      values_untracked.push_back(*before);
-      values_tracked.push_back(*after);
+      if (!truth || !before || !after) continue;
+      errors_untracked.push_back(*before - *truth);
+      errors_tracked.push_back(*after - *truth);
     }
-    if (static_cast<int>(values_tracked.size()) < min_frames) return;
-    untracked.push_back(deviations(values_untracked, movement));
-    tracked.push_back(deviations(values_tracked, movement));
+    if (static_cast<int>(errors_tracked.size()) < min_frames) return;
+    untracked.push_back(deviations(errors_untracked));
+    tracked.push_back(deviations(errors_tracked));
   });
 }
 
@@ -175,17 +174,14 @@ Quantity position_mm(int joint_index) {
   };
 }
 
-Quantity pointing_direction(Side side) {
+/// In degrees: the distance of two near directions is their angle.
+Quantity pointing_direction_deg(Side side) {
   return [side](const BodyPose& pose) -> std::optional<Vector3f> {
     for (const Pointing& pointing : pose.pointing)
-      if (pointing.side == side && !pointing.direction.isZero()) return pointing.direction;
+      if (pointing.side == side && !pointing.direction.isZero())
+        return Vector3f(pointing.direction * kDegrees);
     return std::nullopt;
   };
-}
-
-double distance(const Vector3f& a, const Vector3f& b) { return (a - b).norm(); }
-double angle_deg(const Vector3f& a, const Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
 }
 
 /// How many frames the tracked joint is behind the untracked one, along the true motion of a frame.
@@ -208,14 +204,14 @@ void add_life(const Life& life, const TrackingParams& params, TrackingTally& tal
   count_switches(life, tally);
   for (int joint = 0; joint < kJointCount; ++joint) {
     const Quantity position = position_mm(joint);
-    add_rests(life, position, distance, params.rest_speed_m_s * kMillimetres,
-              params.min_rest_frames, tally.untracked_joints_mm, tally.tracked_joints_mm);
+    add_rests(life, position, params.rest_speed_m_s * kMillimetres, params.min_rest_frames,
+              tally.untracked_joints_mm, tally.tracked_joints_mm);
     auto lags_frames = lags(life, position, params.moving_speed_m_s * kMillimetres);
     if (!lags_frames.empty()) tally.lags_frames.push_back(std::move(lags_frames));
   }
   for (const Side side : {Side::kLeft, Side::kRight})
-    add_rests(life, pointing_direction(side), angle_deg, params.rest_speed_deg_s,
-              params.min_rest_frames, tally.untracked_directions_deg, tally.tracked_directions_deg);
+    add_rests(life, pointing_direction_deg(side), params.rest_speed_deg_s, params.min_rest_frames,
+              tally.untracked_directions_deg, tally.tracked_directions_deg);
 }
 
 std::optional<double> median(const std::vector<double>& values) { return quantile(values, 0.5); }

@@ -7,8 +7,7 @@
 
 namespace limbcast::evaluate {
 
-/// What counts as rest, as motion, as the same person. Chosen for the truth of rendered and
-/// simulated people, which stands still to the millimetre.
+/// What counts as rest, as motion, as the same person.
 struct TrackingParams {
   float match_distance_m = 0.5F;     ///< as for single frames
   float rest_speed_m_s = 0.05F;      ///< a true joint that moves less rests
@@ -23,7 +22,8 @@ struct TrackingTally {
   int identity_switches = 0;  ///< a true person was followed under one number, then under another
   int followed = 0;           ///< true persons that were followed, in all frames
   using Groups = std::vector<std::vector<double>>;
-  /// Distances from the middle of a rest [mm], in frames where both told the joint.
+  /// Distances of a joint's error from the middle of its errors during a rest [mm], in frames where
+  /// both told the joint.
   Groups untracked_joints_mm, tracked_joints_mm;
   /// The same of pointing directions [degrees].
   Groups untracked_directions_deg, tracked_directions_deg;

@@ -20,13 +20,18 @@ void OneEuroFilter::restart(const Eigen::Vector3f& value, const Eigen::Vector3f&
   started_ = true;
   value_ = last_measured_ = value;
   speed_ = speed;
+  distance_.setZero();
   memory_ = 1.0;
 }
 
 void OneEuroFilter::update(const Eigen::Vector3f& value, double elapsed_s) {
   const Eigen::Vector3f measured_speed = (value - last_measured_) / static_cast<float>(elapsed_s);
-  speed_ += sample_weight(params_.speed_cutoff_hz, elapsed_s) * (measured_speed - speed_);
-  const double motion = std::max(0.0, speed_.norm() - params_.rest_speed);
+  const float change = sample_weight(params_.speed_cutoff_hz, elapsed_s);
+  speed_ += change * (measured_speed - speed_);
+  distance_ += change * (value - value_ - distance_);
+  const double too_far = std::max(0.0, distance_.norm() - params_.rest_distance);
+  const double motion = std::max(0.0, speed_.norm() - params_.rest_speed) +
+                        2.0 * kPi * params_.speed_cutoff_hz * too_far;
   const double cutoff_hz = params_.min_cutoff_hz + params_.speed_coefficient * motion;
   memory_ = std::min(memory_ + 1.0, 1.0 / sample_weight(cutoff_hz, elapsed_s));
   value_ += (value - value_) / static_cast<float>(memory_);

@@ -9,15 +9,18 @@ namespace limbcast::tracker {
 /// that, and a mean of all samples since the last motion until the cutoff allows no longer memory,
 /// so that a value is steady soon after it came to rest.
 struct OneEuroParams {
-  /// Cutoff at rest [Hz]. Lower: less jitter. 0.25 Hz at 10 frames a second leaves 26 % of white
+  /// Cutoff at rest [Hz]. Lower: less jitter. 0.1 Hz at 10 frames a second leaves 17 % of white
   /// noise.
-  double min_cutoff_hz = 0.25;
+  double min_cutoff_hz = 0.1;
   /// How much the cutoff rises with the speed beyond `rest_speed` [Hz per unit of the value / s].
   /// Higher: less lag.
   double speed_coefficient = 20.0;
   /// Speed that noise alone shows [unit of the value / s].
-  double rest_speed = 0.2;
-  /// Cutoff of the speed itself [Hz]: the paper's value.
+  double rest_speed = 0.25;
+  /// Mean distance of the measured from the smoothed value that noise alone shows [unit]; more is a
+  /// motion too slow for `rest_speed`.
+  double rest_distance = 0.015;
+  /// Cutoff of the speed and of that distance [Hz]: the paper's value.
   double speed_cutoff_hz = 1.0;
 };
 
@@ -49,6 +52,7 @@ class OneEuroFilter {
   Eigen::Vector3f value_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f last_measured_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f speed_ = Eigen::Vector3f::Zero();
+  Eigen::Vector3f distance_ = Eigen::Vector3f::Zero();  ///< of the measured value, smoothed
   double memory_ = 1.0;  ///< number of samples over which it averages
 };
 

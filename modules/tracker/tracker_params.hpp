@@ -59,7 +59,7 @@ struct TrackerParams {
   OneEuroParams joints;
   /// Directions of pointing arms, as unit vectors: rad/s instead of m/s. The low cutoff averages
   /// over about a second while the arm rests.
-  OneEuroParams pointing{0.2, 10.0, 0.25, 1.0};
+  OneEuroParams pointing{0.2, 10.0, 0.25, 0.03, 1.0};
   JumpParams jumps;
   PredictionParams prediction;
 };

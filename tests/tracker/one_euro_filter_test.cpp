@@ -37,6 +37,15 @@ TEST(OneEuroFilter, LagsLessThanAFrameBehindSteadyMotion) {
   EXPECT_GT(filter.value().x(), 20 * kStep_m - 0.5F * kStep_m);
 }
 
+TEST(OneEuroFilter, FollowsMotionThatIsSlowerThanNoise) {
+  OneEuroFilter filter({});
+  filter.restart(Vector3f::Zero());
+  constexpr float kStep_m = 0.01F;  // 0.1 m/s
+  for (int i = 1; i <= 50; ++i)
+    filter.update({kStep_m * static_cast<float>(i), 0.0F, 0.0F}, kFrame_s);
+  EXPECT_NEAR(filter.value().x(), 50 * kStep_m, 0.03F);
+}
+
 TEST(OneEuroFilter, IsTheMeanOfItsFirstSamplesAtRest) {
   OneEuroFilter filter({});
   filter.restart({0.000F, 0.0F, 0.0F});
