@@ -2,7 +2,7 @@
 # Trains the head classifier from nothing: simulates people for each sensor, trains on them and on the
 # recordings of bodies D1 to D3, and writes modules/segmenter/head_networks.inc. Build again afterwards.
 # Usage: tests/segmenter/train_heads.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   2000 simulated frames, 1.2 GB, about half an hour on two cores; sets that are there stay
+#   SIMULATED_DIR   1940 simulated frames, 1.2 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev, laser_dev and rgbd_pointing
 #   BIN_DIR         default: build/release/bin
 # Run it after the matcher, the lattice, the template or the growing changed.
