@@ -68,6 +68,8 @@ struct ConeSpec {
   bool lower_arm = false;    ///< forearm or hand: what carries the pointing direction
 };
 inline constexpr int kConeCount = 22;
+/// The cone from the wrist to the finger tips.
+constexpr int hand_cone(int side) { return side == 0 ? 12 : 18; }
 /// Radii and offsets: fitted to frames of the tuning half with true joints and true depth.
 const std::array<ConeSpec, kConeCount>& cone_specs();
 

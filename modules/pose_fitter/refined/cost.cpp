@@ -13,6 +13,7 @@ CostTerms evaluate(const BodyState& body, const Observation& observation, const 
   terms.surface = equations.cost;
   add_free_space_term(cones, observation, stage.parts, params.free_space_weight, workspace,
                       equations);
+  add_skin_term(cones, observation, stage.parts, workspace, equations);
   terms.free_space = equations.cost - terms.surface;
   if (derivatives) workspace.cones.add_to(body, equations);
   add_prior_terms(body, cones, observation, stage.parts, params, equations);

@@ -46,6 +46,10 @@ void add_surface_term(const Cones& cones, const FitStage& stage, Real robust_sig
 void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
                          Real weight, Workspace& workspace, NormalEquations& equations);
 
+/// Hands are skin-coloured, most often: they stand where such pixels are.
+void add_skin_term(const Cones& cones, const Observation& observation, unsigned parts,
+                   Workspace& workspace, NormalEquations& equations);
+
 /// What is known of bodies without looking: proportions, joint limits, parts not in one another,
 /// the ground.
 void add_prior_terms(const BodyState& body, const Cones& cones, const Observation& observation,

@@ -124,6 +124,28 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
   observation.clearance_px.assign(clearance.begin<float>(), clearance.end<float>());
 }
 
+/// Face and bare hands show some skin; fewer pixels tell of none.
+void find_skin(const RangeImage& image, const Box& box, Observation& observation) {
+  constexpr int kLeastPixels = 20;
+  if (image.is_skin.empty()) return;
+  const PinholeCamera& camera = observation.camera;
+  cv::Mat no_skin(camera.height, camera.width, CV_8U, cv::Scalar(1));
+  int count = 0;
+  for (int v = kMarginPx; v < camera.height - kMarginPx; ++v) {
+    for (int u = kMarginPx; u < camera.width - kMarginPx; ++u) {
+      const std::size_t i = static_cast<std::size_t>(v + box.v0 - kMarginPx) * image.camera.width +
+                            u + box.u0 - kMarginPx;
+      if (image.is_skin[i] == 0 || observation.surface_m[observation.at(u, v)] <= 0.0F) continue;
+      no_skin.at<std::uint8_t>(v, u) = 0;
+      ++count;
+    }
+  }
+  if (count < kLeastPixels) return;
+  cv::Mat distance;
+  cv::distanceTransform(no_skin, distance, cv::DIST_L2, 3);
+  observation.skin_distance_px.assign(distance.begin<float>(), distance.end<float>());
+}
+
 PointColumns sampled(const Observation& observation, int step, double reach_m) {
   PointColumns points;
   const PinholeCamera& camera = observation.camera;
@@ -196,6 +218,7 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   const std::optional<Box> box = person_box(image, head_z, params.min_points, median_z);
   if (!box) return std::nullopt;
   make_grids(image, *box, head_z, median_z, observation);
+  find_skin(image, *box, observation);
   const auto own_pixels = std::count_if(observation.surface_m.begin(), observation.surface_m.end(),
                                         [](float z) { return z > 0.0F; });
   const int step = std::max(1, static_cast<int>(std::lround(std::sqrt(

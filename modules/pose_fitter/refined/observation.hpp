@@ -33,6 +33,8 @@ struct Observation {
   std::vector<float> clearance_px;
   std::vector<float> surface_m;  ///< the person's own surface along the optical axis, 0 = none
   std::vector<float> seen_m;     ///< the same with whatever stands before the person
+  /// Distance to the nearest skin-coloured pixel of the person [px]; empty where none is known.
+  std::vector<float> skin_distance_px;
   DepthNoise noise;
 
   Vec3 up;                      ///< against gravity
