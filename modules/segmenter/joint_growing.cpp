@@ -138,8 +138,9 @@ void JointGrowth::grow() {
   }
   for (; bucket_ < buckets_.size(); ++bucket_) {
     // The bucket may grow while it is walked: short steps land in it again.
-    for (std::size_t j = 0; j < buckets_[bucket_].size(); ++j) {
-      const std::uint32_t i = buckets_[bucket_][j];
+    std::size_t next = 0;
+    while (next < buckets_[bucket_].size()) {
+      const std::uint32_t i = buckets_[bucket_][next++];
       if (bucket_of(way_m_[i]) == bucket_) visit(i);
     }
     buckets_[bucket_].clear();

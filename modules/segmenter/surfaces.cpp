@@ -30,8 +30,9 @@ class Walker {
     Eigen::AlignedBox3f box;
     points_ = {start};
     surfaces_.of_point[start] = name;
-    for (std::size_t j = 0; j < points_.size(); ++j) {
-      const std::uint32_t i = points_[j];
+    std::size_t next = 0;
+    while (next < points_.size()) {
+      const std::uint32_t i = points_[next++];
       const float side_m = lattice_.depth_m[i] / lattice_.focal_px;
       surface.area_m2 += side_m * side_m;
       box.extend(lattice_.level_m[i]);
