@@ -20,10 +20,11 @@ void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGri
   const Eigen::Vector2f middle(place.u + 0.5F, place.v + 0.5F);
   const float px_per_m = lattice.focal_px / place.depth_m * place.scale;
   const float side = place.mirrored ? -1.0F : 1.0F;
+  const int middle_column = grid.columns / 2;
   for (int row = 0; row < grid.rows; ++row) {
     const float up_m = grid.top_m - static_cast<float>(row) * grid.spacing_m;
     for (int column = 0; column < grid.columns; ++column) {
-      const float across_m = side * static_cast<float>(column - grid.columns / 2) * grid.spacing_m;
+      const float across_m = side * static_cast<float>(column - middle_column) * grid.spacing_m;
       const Eigen::Vector2f at = middle + px_per_m * (across_m * right + up_m * lattice.up);
       int u = static_cast<int>(std::floor(at.x()));
       const int v = static_cast<int>(std::floor(at.y()));
