@@ -168,13 +168,13 @@ std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
   return cv::estimateChessboardSharpness(grey, lattice(board), points.pixels)[0];
 }
 
-cv::Mat draw_board(const Board& board, double pixels_per_m) {
-  const int square_px = std::max(8, cvRound(board.square_m * pixels_per_m));
+cv::Mat draw_board(const Board& board, int square_px) {
   cv::Mat image;
   if (board.kind == BoardKind::kChessboard) image = draw_squares(board, square_px);
   if (board.kind == BoardKind::kCircles) image = draw_circles(board, square_px);
   if (board.kind == BoardKind::kCharuco) image = draw_charuco(board, square_px);
-  cv::copyMakeBorder(image, image, square_px, square_px, square_px, square_px, cv::BORDER_CONSTANT,
+  const int margin_px = square_px / 2;
+  cv::copyMakeBorder(image, image, margin_px, margin_px, margin_px, margin_px, cv::BORDER_CONSTANT,
                      cv::Scalar(255));
   return image;
 }

@@ -59,7 +59,8 @@ void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& r
 std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
                                     const BoardPoints& points);
 
-/// The board as it is printed, 8-bit grey, `pixels_per_m` fine, with a white margin of one square.
-cv::Mat draw_board(const Board& board, double pixels_per_m);
+/// The board as it is printed, 8-bit grey, `square_px` for each square, with a white
+/// margin of half a square.
+cv::Mat draw_board(const Board& board, int square_px);
 
 }  // namespace limbcast::calibrate

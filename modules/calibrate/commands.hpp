@@ -7,5 +7,11 @@ namespace limbcast::calibrate {
 
 /// Calibrates a pair from pictures of a board.
 bool run_stereo(int argc, const char* const* argv);
+/// Draws a board to print.
+bool run_board(int argc, const char* const* argv);
+/// Measures how well a calibration fits a recording.
+bool run_check(int argc, const char* const* argv);
+/// Adds gravity and the camera's height to a calibration.
+bool run_mounting(int argc, const char* const* argv);
 
 }  // namespace limbcast::calibrate

@@ -1,9 +1,29 @@
+#include <map>
+#include <string>
+
 #include "common/config/options.hpp"
 #include "modules/calibrate/commands.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+/// True: the result is good.
+bool run(int argc, const char* const* argv) {
+  using Command = bool (*)(int, const char* const*);
+  static const std::map<std::string, Command> kCommands = {
+      {"board", run_board}, {"check", run_check}, {"mounting", run_mounting}};
+  const auto command = argc > 1 ? kCommands.find(argv[1]) : kCommands.end();
+  // The command's name takes the place of the program's, which the parser passes over.
+  if (command != kCommands.end()) return command->second(argc - 1, argv + 1);
+  return run_stereo(argc, argv);
+}
+
+}  // namespace
+}  // namespace limbcast::calibrate
 
 int main(int argc, char** argv) {
   bool good = true;
   const int exit_code = limbcast::config::run_program(
-      "limbcast-calibrate", [&] { good = limbcast::calibrate::run_stereo(argc, argv); });
+      "limbcast-calibrate", [&] { good = limbcast::calibrate::run(argc, argv); });
   return exit_code != 0 ? exit_code : good ? 0 : 1;
 }

@@ -79,7 +79,8 @@ bool run_stereo(int argc, const char* const* argv) {
   config::Section section("calibrate");
   declare(section, options);
   config::Parser parser("limbcast-calibrate",
-                        "Calibrates a stereo camera from pairs of pictures of a board.");
+                        "Calibrates a stereo camera from pairs of pictures of a board. Other "
+                        "commands: board, check, mounting (--help for each).");
   parser.add(section);
   if (!parser.parse(argc, argv)) return true;
   config::configure_log("calibrate", parser.common().log_level);

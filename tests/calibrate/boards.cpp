@@ -56,16 +56,16 @@ BoardPoints project(const Board& board, const BoardPose& pose, const LensCalibra
   return result;
 }
 
-/// Row and column of point 0 in draw_board's picture, in squares: a margin, then a square or half a
-/// circle's cell.
+/// Row and column of point 0 in draw_board's picture, in squares: half a square of margin, then a
+/// square or half a circle's cell.
 double first_point_squares(const Board& board) {
-  return board.kind == BoardKind::kCircles ? 1.5 : 2.0;
+  return board.kind == BoardKind::kCircles ? 1.0 : 1.5;
 }
 
 cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration& lens) {
   // Each pixel is the mean of 2 x 2 rays.
   constexpr int kRays = 2;
-  constexpr double kPixelsPerSquare = 50.0;
+  constexpr int kPixelsPerSquare = 50;
   constexpr uchar kBackground = 120;
   const cv::Size size(kRays * lens.camera.width, kRays * lens.camera.height);
   std::vector<cv::Point2f> pixels;
@@ -93,7 +93,7 @@ cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration&
         static_cast<float>(first_px + scale * place(1) / place(2))};
   }
   cv::Mat fine;
-  cv::remap(draw_board(board, scale), fine, map, cv::noArray(), cv::INTER_LINEAR,
+  cv::remap(draw_board(board, kPixelsPerSquare), fine, map, cv::noArray(), cv::INTER_LINEAR,
             cv::BORDER_CONSTANT, cv::Scalar(kBackground));
   cv::Mat image;
   cv::resize(fine, image, {}, 1.0 / kRays, 1.0 / kRays, cv::INTER_AREA);

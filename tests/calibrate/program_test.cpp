@@ -1,7 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/camera/calibration_io.hpp"
@@ -87,6 +92,74 @@ TEST(CalibrateProgram, RefusesPicturesWithoutBoard) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("only 0 good views of the board"));
   EXPECT_FALSE(fs::exists(folder / "calibration.yml"));
+}
+
+TEST(CalibrateProgram, DrawsABoardOfTrueSizeThatIsFound) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(
+      "limbcast-calibrate", {"board", "--square-mm", "20", "--output", folder / "board.png"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("220 x 160 mm"));  // 10 x 7 squares and half a one around
+  const cv::Mat image = cv::imread(folder / "board.png", cv::IMREAD_GRAYSCALE);
+  const std::optional<BoardPoints> points = find_board(image, {});
+  ASSERT_TRUE(points);
+  const double square_px = cv::norm(points->pixels[1] - points->pixels[0]);
+  EXPECT_NEAR(square_px, 0.02 / 0.0254 * 300.0, 0.6);
+  std::ifstream file(folder / "board.png", std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t chunk = bytes.find("pHYs");
+  ASSERT_NE(chunk, std::string::npos);
+  std::uint32_t pixels_per_m = 0;
+  for (int i = 0; i < 4; ++i)
+    pixels_per_m = pixels_per_m << 8 | static_cast<unsigned char>(bytes[chunk + 4 + i]);
+  EXPECT_NEAR(pixels_per_m * 0.02, square_px, 0.05);
+}
+
+TEST(CalibrateProgram, ChecksACalibrationOnABoard) {
+  const TemporaryFolder folder;
+  const Board board;
+  const std::vector<BoardPose> poses = varied_poses(board, 2);
+  write_pair(folder, render_board(board, poses[0], true_cameras(), "a"));
+  write_pair(folder, render_board(board, poses[1], true_cameras(), "b"));
+  const TemporaryFolder out;
+  StereoCalibration cameras = true_cameras();
+  write_stereo_calibration(out / "good.yml", cameras);
+  const Outcome good = run_program("limbcast-calibrate", {"check", "--source", folder.path(),
+                                                          "--calibration", out / "good.yml"});
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  EXPECT_THAT(good.out, HasSubstr("2 with a board"));
+
+  // One camera nods by a quarter of a degree: 531 px * 0.0044 = 2.3 px.
+  cameras.R = Eigen::AngleAxisd(0.0044, Eigen::Vector3d::UnitX()) * cameras.R;
+  write_stereo_calibration(out / "bad.yml", cameras);
+  const Outcome bad = run_program(
+      "limbcast-calibrate", {"check", "--source", folder.path(), "--calibration", out / "bad.yml"});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.out, HasSubstr("bad: the median epipolar error is 2."));
+
+  cameras = true_cameras();
+  cameras.T *= 1.1;
+  write_stereo_calibration(out / "long.yml", cameras);
+  const Outcome too_long = run_program("limbcast-calibrate", {"check", "--source", folder.path(),
+                                                              "--calibration", out / "long.yml"});
+  EXPECT_EQ(too_long.exit_code, 1);
+  EXPECT_THAT(too_long.out, ::testing::ContainsRegex("lengths on the board are off by .(9|10)"));
+}
+
+TEST(CalibrateProgram, FindsTheMountingOfARecording) {
+  const std::string source = std::string(LIMBCAST_DATA_DIR) + "/stereo_dev/sequence";
+  if (!fs::exists(source)) GTEST_SKIP() << source << " is absent";
+  const TemporaryFolder out;
+  const Outcome outcome =
+      run_program("limbcast-calibrate",
+                  {"mounting", "--source", source, "--calibration", source + "/calibration.yml",
+                   "--pairs", "4", "--output", out / "mounted.yml"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const Mounting mounting = read_stereo_calibration(out / "mounted.yml").mounting;
+  // The truth of the recording, to half a degree and 3 cm.
+  ASSERT_TRUE(mounting.down && mounting.sensor_height_m);
+  EXPECT_GT(mounting.down->dot(Eigen::Vector3d(0.006434, 0.997543, 0.069756)), std::cos(0.0087));
+  EXPECT_NEAR(*mounting.sensor_height_m, 1.25, 0.03);
 }
 
 TEST(CalibrateProgram, ExplainsWrongUsage) {

@@ -1,0 +1,45 @@
+#include <cstdio>
+#include <opencv2/core/mat.hpp>
+
+#include "common/config/log.hpp"
+#include "modules/calibrate/board.hpp"
+#include "modules/calibrate/commands.hpp"
+#include "modules/calibrate/output.hpp"
+
+namespace limbcast::calibrate {
+
+bool run_board(int argc, const char* const* argv) {
+  constexpr double kMillimetres = 1e3, kMillimetresPerInch = 25.4;
+  BoardOptions options;
+  std::string output;
+  double dots_per_inch = 300.0;
+  config::Section section("calibrate");
+  declare(section, options);
+  section.add("output", output, "picture to write (PNG), of true size when printed at 100 %");
+  section.add("dpi", dots_per_inch, "pixels per inch",
+              "resolution, rounded to whole pixels a square", {50.0, 2400.0});
+  config::Parser parser("limbcast-calibrate board", "Draws a board to print in true size.");
+  parser.add(section);
+  if (!parser.parse(argc, argv)) return true;
+  config::configure_log("calibrate", parser.common().log_level);
+  if (output.empty()) throw config::UsageError("--output is missing; see --help");
+
+  const Board board = to_board(options);
+  const int square_px = cvRound(options.square_mm * dots_per_inch / kMillimetresPerInch);
+  // A marker needs 9 cells and a square some pixels more for its corners to be sharp.
+  constexpr int kSmallestSquare_px = 16;
+  if (square_px < kSmallestSquare_px)
+    throw config::UsageError("a square has " + std::to_string(square_px) +
+                             " pixels, must be at least 16; raise 'dpi' or 'square-mm'");
+  const double pixels_per_m = square_px / board.square_m;
+  const cv::Mat image = draw_board(board, square_px);
+  write_png_of_size(output, image, pixels_per_m);
+  std::printf(
+      "written: %s, %.0f x %.0f mm; print at 100 %%, measure a square and tell it with "
+      "--square-mm\n",
+      output.c_str(), kMillimetres * image.cols / pixels_per_m,
+      kMillimetres * image.rows / pixels_per_m);
+  return true;
+}
+
+}  // namespace limbcast::calibrate

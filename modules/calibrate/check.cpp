@@ -1,0 +1,136 @@
+#include "modules/calibrate/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "modules/calibrate/stereo_fit.hpp"
+#include "modules/calibrate/text.hpp"
+#include "modules/reconstructor/rectifier.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Point seen at `left` and `right` in the rectified images [m].
+cv::Point3d triangulate(const cv::Point2d& left, const cv::Point2d& right,
+                        const Rectification& rectification) {
+  const double focal_px = rectification.P1(0, 0);
+  const double cx_left = rectification.P1(0, 2);
+  const double disparity_px = (left.x - cx_left) - (right.x - rectification.P2(0, 2));
+  const double z_m = -rectification.P2(0, 3) / disparity_px;
+  return {(left.x - cx_left) * z_m / focal_px, (left.y - rectification.P1(1, 2)) * z_m / focal_px,
+          z_m};
+}
+
+/// Where `from` of one image stands in the other.
+struct Tracks {
+  std::vector<cv::Point2f> to;
+  std::vector<uchar> found;
+};
+Tracks track(const cv::Mat& from_image, const cv::Mat& to_image,
+             const std::vector<cv::Point2f>& from) {
+  constexpr int kWindow_px = 21, kPyramidLevels = 5;
+  Tracks tracks;
+  cv::calcOpticalFlowPyrLK(from_image, to_image, from, tracks.to, tracks.found, cv::noArray(),
+                           {kWindow_px, kWindow_px}, kPyramidLevels);
+  return tracks;
+}
+
+}  // namespace
+
+double CheckResult::median_epipolar_px() const {
+  std::vector<double> sizes;
+  for (const double difference : row_differences_px) sizes.push_back(std::abs(difference));
+  return median(std::move(sizes));
+}
+
+double CheckResult::median_shift_px() const { return median(row_differences_px); }
+
+std::optional<double> CheckResult::median_length_error() const {
+  if (length_errors.empty()) return std::nullopt;
+  return median(length_errors);
+}
+
+CalibrationCheck::CalibrationCheck(StereoCalibration calibration, const Board& board,
+                                   const CheckParams& params)
+    : calibration_(std::move(calibration)), board_(board), params_(params) {
+  if (!calibration_.rectification) calibration_.rectification = rectify(calibration_);
+}
+
+void CalibrationCheck::add(const GreyPair& pair) {
+  ++result_.pairs;
+  if (!add_board(pair)) add_features(pair);
+}
+
+/// False: both images do not show the board.
+bool CalibrationCheck::add_board(const GreyPair& pair) {
+  const std::optional<BoardPoints> seen_left = find_board(pair.left, board_);
+  if (!seen_left) return false;
+  std::optional<BoardPoints> seen_right = find_board(pair.right, board_);
+  if (!seen_right) return false;
+  align_numbering(board_, *seen_left, *seen_right);
+  const CommonPoints common = common_points(*seen_left, *seen_right);
+  if (common.ids.size() < 2) return false;
+  const Rectification& rectification = *calibration_.rectification;
+  const auto left =
+      rectified_points(common.left, calibration_.left, rectification.R1, rectification.P1);
+  const auto right =
+      rectified_points(common.right, calibration_.right, rectification.R2, rectification.P2);
+  for (std::size_t i = 0; i < left.size(); ++i)
+    result_.row_differences_px.push_back(right[i].y - left[i].y);
+  const double measured_m = cv::norm(triangulate(left.back(), right.back(), rectification) -
+                                     triangulate(left.front(), right.front(), rectification));
+  const double known_m =
+      cv::norm(board_.point_m(common.ids.back()) - board_.point_m(common.ids.front()));
+  result_.length_errors.push_back(measured_m / known_m - 1.0);
+  ++result_.board_pairs;
+  return true;
+}
+
+void CalibrationCheck::add_features(const GreyPair& pair) {
+  constexpr double kQuality = 0.02, kSpacing_px = 10.0;
+  // A corner that is tracked there and back must come to where it was.
+  constexpr double kReturn_px = 0.3;
+  // Corners that lie on a horizontal edge slide along it; larger row differences are wrong matches.
+  constexpr double kSearch_px = 8.0;
+  const reconstructor::RectifiedPair images =
+      reconstructor::Rectifier(calibration_).rectify(pair.left, pair.right);
+  std::vector<cv::Point2f> left;
+  cv::goodFeaturesToTrack(images.left, left, params_.max_features, kQuality, kSpacing_px);
+  if (left.empty()) return;
+  const Tracks there = track(images.left, images.right, left);
+  const Tracks back = track(images.right, images.left, there.to);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (there.found[i] == 0 || back.found[i] == 0) continue;
+    const cv::Point2f step = there.to[i] - left[i];
+    if (cv::norm(back.to[i] - left[i]) > kReturn_px || step.x > 1.0F) continue;
+    if (std::abs(step.y) <= kSearch_px) result_.row_differences_px.push_back(step.y);
+  }
+}
+
+std::vector<std::string> CalibrationCheck::faults() const {
+  if (static_cast<int>(result_.row_differences_px.size()) < params_.min_points)
+    return {text("only %zu matched points, %d are needed: show a board or a scene with texture",
+                 result_.row_differences_px.size(), params_.min_points)};
+  std::vector<std::string> faults;
+  if (result_.median_epipolar_px() > params_.max_epipolar_px)
+    faults.push_back(text("the median epipolar error is %.2f px (limit %.2f); calibrate again",
+                          result_.median_epipolar_px(), params_.max_epipolar_px));
+  const std::optional<double> length_error = result_.median_length_error();
+  if (length_error && std::abs(*length_error) > params_.max_length_error)
+    faults.push_back(
+        text("lengths on the board are off by %+.1f %% (limit %.0f %%); is --square-mm "
+             "right? Else calibrate again",
+             100.0 * *length_error, 100.0 * params_.max_length_error));
+  return faults;
+}
+
+}  // namespace limbcast::calibrate

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/camera/calibration.hpp"
+#include "modules/calibrate/views.hpp"
+
+namespace limbcast::calibrate {
+
+struct MountingParams {
+  /// Frames that must show ground.
+  int min_frames = 1;
+  /// How far gravity and height of single frames may spread about their median. Steeper ramps or a
+  /// robot that moves give no mounting.
+  double max_spread_deg = 2.0, max_spread_m = 0.1;
+};
+
+/// How the camera stands, from the ground plane in the clouds of a recording.
+class MountingFinder {
+ public:
+  explicit MountingFinder(StereoCalibration calibration, const MountingParams& params = {})
+      : calibration_(std::move(calibration)), params_(params) {}
+
+  void add(const GreyPair& pair);
+
+  int pairs() const { return pairs_; }
+  int pairs_with_ground() const { return static_cast<int>(heights_m_.size()); }
+  /// Medians of what the frames say. Throws std::runtime_error, saying why, where they do not agree
+  /// or show no ground.
+  Mounting mounting() const;
+
+ private:
+  StereoCalibration calibration_;
+  MountingParams params_;
+  int pairs_ = 0;
+  std::vector<Eigen::Vector3d> downs_;
+  std::vector<double> heights_m_;
+};
+
+}  // namespace limbcast::calibrate
