@@ -10,8 +10,8 @@ namespace {
 
 constexpr Real kDegree = M_PI / 180.0;
 
-/// Probabilities are logistic regressions on simulated people and the tuning half of the rendered
-/// ones; README.md has the figures. Evidence beyond this many units of cost adds nothing.
+/// Probabilities are logistic regressions on simulated people and all the rendered ones of
+/// stereo_dev; README.md has the figures. Evidence beyond this many units of cost adds nothing.
 constexpr Real kMostEvidence = 30.0, kMostGap = 15.0;
 /// A joint less sure than this is left out.
 constexpr Real kLeastJointConfidence = 0.08;
