@@ -69,6 +69,13 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
   num_disparities_ =
       std::min(static_cast<int>(std::ceil(focal_baseline / options.near_limit_m)) + 1,
                rectifier_.camera().width);
+  if (num_disparities_ > kMaxDisparities) {
+    std::ostringstream text;
+    text << "near-limit-m (" << options.near_limit_m << ") needs " << num_disparities_
+         << " disparities, at most " << kMaxDisparities
+         << " are searched: raise near-limit-m or lower image-scale";
+    throw std::invalid_argument(text.str());
+  }
 }
 
 DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {

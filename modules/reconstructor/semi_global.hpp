@@ -4,10 +4,13 @@
 
 namespace limbcast::reconstructor {
 
+/// Most disparities that can be searched.
+constexpr int kMaxDisparities = 255;
+
 /// Semi-global matching (Hirschmueller, IEEE PAMI 30, 2008) along four paths, from the left, the
 /// right, above and below.
 struct SemiGlobalParams {
-  /// Disparities searched: 0 ... num_disparities - 1 [px], at most 255.
+  /// Disparities searched: 0 ... num_disparities - 1 [px].
   int num_disparities = 64;
   /// Cost of a step by one disparity between neighbours [census bits].
   int small_step_cost = 8;

@@ -4,42 +4,91 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
 
 #include "modules/reconstructor/simd.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
 
-/// Adds those neighbours that are on the pixel's surface, and counts them.
-LIMBCAST_SIMD void add_same_surface(const float* __restrict center,
-                                    const float* __restrict neighbour, float same_surface_px,
-                                    int count, float* __restrict sum, float* __restrict number) {
+/// Side of the window in which a surface is one, for its shape and its shift: smaller follows fine
+/// shapes, larger quiets noise. A constant, so that the compiler unrolls the loops over it.
+constexpr int kWindowPx = 7;
+constexpr int kRadiusPx = kWindowPx / 2;
+/// First pixels of a window's rows, or of its columns.
+using Taps = std::array<const float*, kWindowPx>;
+
+LIMBCAST_SIMD void sum_window(const Taps& taps, int count, float* __restrict sums) {
   for (int i = 0; i < count; ++i) {
-    const float is_same = std::abs(neighbour[i] - center[i]) < same_surface_px ? 1.0F : 0.0F;
-    sum[i] += is_same * neighbour[i];
-    number[i] += is_same;
+    float sum = 0.0F;
+    for (const float* tap : taps) sum += tap[i];
+    sums[i] = sum;
   }
 }
 
-/// Mean of each pixel's surface along a row or a column of `window_px`. Disparities start above
-/// `same_surface_px`, so that no hole (0) is on any surface.
-cv::Mat1f smooth_along(const cv::Mat1f& disparity_px, cv::Size window, float same_surface_px) {
-  cv::Mat1f padded, sum(disparity_px.size(), 0.0F), number(disparity_px.size(), 0.0F);
-  const int above = window.height / 2, beside = window.width / 2;
-  cv::copyMakeBorder(disparity_px, padded, above, above, beside, beside, cv::BORDER_CONSTANT, 0.0);
-  for (int v = 0; v < disparity_px.rows; ++v)
-    for (int y = 0; y < window.height; ++y)
-      for (int x = 0; x < window.width; ++x)
-        add_same_surface(disparity_px[v], padded[v + y] + x, same_surface_px, disparity_px.cols,
-                         sum[v], number[v]);
-  return sum / number;
+/// Mean of those pixels of a window that are on the surface of its middle, the more alike the more
+/// weight; a hole (0) stays one.
+LIMBCAST_SIMD void average_surface(const Taps& taps, float same_surface_px, int count,
+                                   float* __restrict means) {
+  for (int i = 0; i < count; ++i) {
+    const float middle = taps[kRadiusPx][i];
+    float sum = 0.0F, weights = 0.0F;
+    for (const float* tap : taps) {
+      const float alike = same_surface_px - std::abs(tap[i] - middle);
+      const float weight = alike + std::abs(alike);  // 0 where not alike, without a branch
+      sum += weight * tap[i];
+      weights += weight;
+    }
+    means[i] = sum / weights;
+  }
 }
 
-/// The same in a square window, rows first.
-cv::Mat1f smooth_surfaces(const cv::Mat1f& disparity_px, const SubpixelParams& params) {
-  const cv::Mat1f smooth =
-      smooth_along(disparity_px, {params.window_px, 1}, params.same_surface_px);
-  return smooth_along(smooth, {1, params.window_px}, params.same_surface_px);
+/// Applies `filter(taps, count, result)` along rows, then along columns, row by row, so that all
+/// of it stays in the cache. Outside the image everything is 0.
+template <typename Filter>
+class WindowFilter {
+ public:
+  WindowFilter(int width, Filter filter)
+      : width_(width), filter_(std::move(filter)), padded_(width + 2 * kRadiusPx, 0.0F) {
+    for (auto& row : filtered_) row.assign(width, 0.0F);
+  }
+  /// Takes the image's next row, or nullptr below the last.
+  void push(const float* row) {
+    std::rotate(filtered_.begin(), filtered_.begin() + 1, filtered_.end());
+    if (row == nullptr) {
+      std::fill(filtered_.back().begin(), filtered_.back().end(), 0.0F);
+      return;
+    }
+    std::copy_n(row, width_, padded_.begin() + kRadiusPx);
+    Taps taps{};
+    for (int i = 0; i < kWindowPx; ++i) taps[i] = padded_.data() + i;
+    filter_(taps, width_, filtered_.back().data());
+  }
+  /// The result for the row that was pushed kRadiusPx rows ago.
+  void pull(float* result) const {
+    Taps taps{};
+    for (int i = 0; i < kWindowPx; ++i) taps[i] = filtered_[i].data();
+    filter_(taps, width_, result);
+  }
+
+ private:
+  int width_;
+  Filter filter_;
+  std::vector<float> padded_;
+  std::array<std::vector<float>, kWindowPx> filtered_;
+};
+
+cv::Mat1f smooth_surfaces(const cv::Mat1f& disparity_px, float same_surface_px) {
+  WindowFilter filter(disparity_px.cols, [=](const Taps& taps, int count, float* means) {
+    average_surface(taps, same_surface_px, count, means);
+  });
+  cv::Mat1f smoothed(disparity_px.size());
+  for (int v = 0; v < disparity_px.rows + kRadiusPx; ++v) {
+    filter.push(v < disparity_px.rows ? disparity_px[v] : nullptr);
+    if (v >= kRadiusPx) filter.pull(smoothed[v - kRadiusPx]);
+  }
+  return smoothed;
 }
 
 /// Value and slope between four samples (Catmull and Rom's cubic).
@@ -55,45 +104,57 @@ Sample interpolate(const float* samples, float fraction) {
           linear + fraction * (2.0F * square + fraction * 3.0F * cube)};
 }
 
-/// Sums over windows of what the shift is found from.
-class Windows {
- public:
-  Windows(const cv::Mat1f& left, const cv::Mat1f& right, const cv::Mat1f& disparity_px,
-          int window_px) {
-    for (cv::Mat1f& sum : sums_) sum = cv::Mat1f(left.size(), 0.0F);
-    for (int v = 0; v < left.rows; ++v)
-      for (int u = 1; u + 1 < left.cols; ++u)
-        if (disparity_px(v, u) > 0.0F)
-          add(left, right, v, u, static_cast<float>(u) - disparity_px(v, u));
-    for (cv::Mat1f& sum : sums_)
-      cv::boxFilter(sum, sum, -1, {window_px, window_px}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  }
-  /// By how much the disparity is to grow [px].
-  float shift_px(int v, int u, float noise_variance) const {
-    const float number = sums_[kNumber](v, u);
-    if (number < 1.0F) return 0.0F;
-    const float slope = sums_[kSlope](v, u), difference = sums_[kDifference](v, u);
-    const float variance = sums_[kSlopeSquared](v, u) - slope * slope / number;
-    const float covariance = sums_[kProduct](v, u) - slope * difference / number;
-    return covariance / (variance + noise_variance * number);
-  }
+/// What a window's shift is found from: of a row's pixels, or summed over windows.
+enum Term { kNumber, kSlope, kDifference, kSlopeSquared, kProduct, kNumTerms };
+using Terms = std::array<std::vector<float>, kNumTerms>;
 
- private:
-  enum Sum { kNumber, kSlope, kDifference, kSlopeSquared, kProduct, kNumSums };
-  void add(const cv::Mat1f& left, const cv::Mat1f& right, int v, int u, float matched) {
+/// The terms of each pixel of a row; 0 where it has no disparity or its match no surroundings.
+void compute_terms(const float* left, const float* right, const float* disparity_px, int width,
+                   Terms& terms) {
+  for (auto& term : terms) term.assign(width, 0.0F);
+  for (int u = 1; u + 1 < width; ++u) {
+    const float matched = static_cast<float>(u) - disparity_px[u];
     const int column = static_cast<int>(matched);
-    if (column < 1 || column + 2 >= right.cols) return;
-    const Sample sample = interpolate(right[v] + column, matched - static_cast<float>(column));
-    const float slope = 0.5F * (sample.slope + 0.5F * (left(v, u + 1) - left(v, u - 1)));
-    const float difference = sample.value - left(v, u);
-    sums_[kNumber](v, u) = 1.0F;
-    sums_[kSlope](v, u) = slope;
-    sums_[kDifference](v, u) = difference;
-    sums_[kSlopeSquared](v, u) = slope * slope;
-    sums_[kProduct](v, u) = slope * difference;
+    if (disparity_px[u] <= 0.0F || column < 1 || column + 2 >= width) continue;
+    const Sample sample = interpolate(right + column, matched - static_cast<float>(column));
+    const float slope = 0.5F * (sample.slope + 0.5F * (left[u + 1] - left[u - 1]));
+    const float difference = sample.value - left[u];
+    terms[kNumber][u] = 1.0F;
+    terms[kSlope][u] = slope;
+    terms[kDifference][u] = difference;
+    terms[kSlopeSquared][u] = slope * slope;
+    terms[kProduct][u] = slope * difference;
   }
-  std::array<cv::Mat1f, kNumSums> sums_;
-};
+}
+
+/// By how much a window's disparity is to grow [px].
+float shift_px(const Terms& sums, int u, float noise_variance) {
+  constexpr float kMaxShiftPx = 0.5F;  // beyond, the step's linear picture of the image fails
+  const float number = sums[kNumber][u];
+  if (number < 1.0F) return 0.0F;
+  const float slope = sums[kSlope][u], difference = sums[kDifference][u];
+  const float variance = sums[kSlopeSquared][u] - slope * slope / number;
+  const float covariance = sums[kProduct][u] - slope * difference / number;
+  return std::clamp(covariance / (variance + noise_variance * number), -kMaxShiftPx, kMaxShiftPx);
+}
+
+void shift_windows(const cv::Mat1f& left, const cv::Mat1f& right, float noise_variance,
+                   cv::Mat1f& disparity_px) {
+  const int width = left.cols;
+  std::vector<WindowFilter<decltype(&sum_window)>> filters(kNumTerms, {width, sum_window});
+  Terms terms, sums;
+  for (auto& sum : sums) sum.resize(width);
+  for (int v = 0; v < left.rows + kRadiusPx; ++v) {
+    const bool inside = v < left.rows;
+    if (inside) compute_terms(left[v], right[v], disparity_px[v], width, terms);
+    for (int i = 0; i < kNumTerms; ++i) filters[i].push(inside ? terms[i].data() : nullptr);
+    if (v < kRadiusPx) continue;
+    for (int i = 0; i < kNumTerms; ++i) filters[i].pull(sums[i].data());
+    float* row = disparity_px[v - kRadiusPx];
+    for (int u = 0; u < width; ++u)
+      if (row[u] > 0.0F) row[u] += shift_px(sums, u, noise_variance);
+  }
+}
 
 cv::Mat1f blurred(const cv::Mat1b& image, double blur_px) {
   cv::Mat1f result;
@@ -106,16 +167,10 @@ cv::Mat1f blurred(const cv::Mat1b& image, double blur_px) {
 
 void refine_disparities(const cv::Mat1b& left, const cv::Mat1b& right, const SubpixelParams& params,
                         cv::Mat1f& disparity_px) {
-  constexpr float kMaxShiftPx = 0.5F;  // beyond, the step's linear picture of the image fails
-  disparity_px = smooth_surfaces(disparity_px, params);
-  const Windows windows(blurred(left, params.blur_px), blurred(right, params.blur_px), disparity_px,
-                        params.window_px);
-  for (int v = 0; v < disparity_px.rows; ++v)
-    for (int u = 0; u < disparity_px.cols; ++u)
-      if (disparity_px(v, u) > 0.0F)
-        disparity_px(v, u) +=
-            std::clamp(windows.shift_px(v, u, params.noise_variance), -kMaxShiftPx, kMaxShiftPx);
-  disparity_px = smooth_surfaces(disparity_px, params);  // the shifts are noisy too
+  disparity_px = smooth_surfaces(disparity_px, params.same_surface_px);
+  shift_windows(blurred(left, params.blur_px), blurred(right, params.blur_px),
+                params.noise_variance, disparity_px);
+  disparity_px = smooth_surfaces(disparity_px, params.same_surface_px);  // the shifts are noisy too
 }
 
 }  // namespace limbcast::reconstructor

@@ -5,9 +5,6 @@
 namespace limbcast::reconstructor {
 
 struct SubpixelParams {
-  /// Side of the window in which a surface is one, for its shape and its shift [px, odd]: smaller
-  /// follows fine shapes, larger quiets noise.
-  int window_px = 7;
   /// Pixels whose disparities differ by less are one surface [px].
   float same_surface_px = 1.0F;
   /// Blur of the images before they are interpolated [px], against their noise.

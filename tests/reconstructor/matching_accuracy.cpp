@@ -4,13 +4,12 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
-#include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "modules/reconstructor/reconstructor.hpp"
 #include "tests/reconstructor/matching_figures.hpp"
+#include "tests/reconstructor/opencv_matcher.hpp"
 #include "tests/reconstructor/stereo_truth.hpp"
 
 namespace {
@@ -18,20 +17,6 @@ namespace {
 using namespace limbcast;
 using reconstructor::RectifiedPair;
 using reconstructor::StereoReconstructor;
-
-/// OpenCV's matchers on the pair padded at the left, so that they lose no columns either.
-cv::Mat1f run_opencv(cv::StereoMatcher& matcher, const RectifiedPair& pair) {
-  const int border = matcher.getNumDisparities();
-  cv::Mat left, right, found;
-  cv::cvtColor(pair.left, left, cv::COLOR_BGR2GRAY);
-  cv::cvtColor(pair.right, right, cv::COLOR_BGR2GRAY);
-  cv::copyMakeBorder(left, left, 0, 0, border, 0, cv::BORDER_REPLICATE);
-  cv::copyMakeBorder(right, right, 0, 0, border, 0, cv::BORDER_REPLICATE);
-  matcher.compute(left, right, found);
-  cv::Mat1f disparity;
-  found.colRange(border, found.cols).convertTo(disparity, CV_32F, 1.0 / 16.0);
-  return cv::max(disparity, 0.0F);
-}
 
 struct Matcher {
   std::string name;
@@ -44,13 +29,12 @@ std::vector<Matcher> matchers() {
   };
   return {{"OpenCV BM 9",
            [=](const StereoReconstructor& r, const RectifiedPair& pair) {
-             return run_opencv(*cv::StereoBM::create(rounded(r), 9), pair);
+             return test::run_opencv(*cv::StereoBM::create(rounded(r), 9), pair);
            }},
           {"OpenCV SGBM 3-way",
            [=](const StereoReconstructor& r, const RectifiedPair& pair) {
-             const auto sgbm = cv::StereoSGBM::create(0, rounded(r), 5, 200, 800, 1, 0, 10, 100, 2,
-                                                      cv::StereoSGBM::MODE_SGBM_3WAY);
-             return run_opencv(*sgbm, pair);
+             const auto sgbm = test::opencv_sgbm(rounded(r), cv::StereoSGBM::MODE_SGBM_3WAY);
+             return test::run_opencv(*sgbm, pair);
            }},
           {"limbcast", [](const StereoReconstructor& r, const RectifiedPair& pair) {
              return cv::Mat1f(r.match(pair).disparity_px);
@@ -94,6 +78,7 @@ void evaluate(const std::string& set, int step, const std::vector<Matcher>& all,
 
 int main(int argc, char** argv) {
   const int step = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
+  cv::setNumThreads(1);  // so that the times are those of one core
   const std::vector<Matcher> all = matchers();
   std::printf("%-20s %6s %6s %7s %7s %7s %7s %7s %7s %7s %7s\n", "", "valid%", "bad2%", "median",
               "MAD", "window", "locking", "precis.", "recall", "thin", "CPU ms");

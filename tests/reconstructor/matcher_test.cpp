@@ -1,0 +1,88 @@
+#include "modules/reconstructor/matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "tests/reconstructor/synthetic_pair.hpp"
+
+namespace limbcast::reconstructor {
+namespace {
+
+/// A wall that comes nearer from left to right and a square before it.
+double wall_and_square(int u, int v) {
+  if (std::abs(u - 320) < 80 && std::abs(v - 240) < 80) return 40.0;
+  return 10.0 + 0.01 * u;
+}
+
+TEST(Match, GivesTheSameOnAnyNumberOfThreads) {
+  const RectifiedPair pair = test::pair_of(wall_and_square);
+  const int before = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const cv::Mat1f one = match(pair.left, pair.right).disparity_px;
+  cv::setNumThreads(4);
+  const cv::Mat1f four = match(pair.left, pair.right).disparity_px;
+  cv::setNumThreads(before);
+  EXPECT_EQ(cv::countNonZero(one != four), 0);
+}
+
+TEST(Match, FindsFractionsWithoutPreferenceForWholeDisparities) {
+  // Columns 50 to 549 lie at 10.5 to 15.5 px: every fraction is equally frequent.
+  const auto slope = [](int u, int) { return 10.0 + 0.01 * u; };
+  const RectifiedPair pair = test::pair_of(slope);
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  std::vector<int> histogram(8, 0);
+  std::vector<float> errors_px;
+  for (int v = 20; v < 460; ++v) {
+    for (int u = 50; u < 550; ++u) {
+      const float disparity_px = found(v, u);
+      if (disparity_px <= 0.0F) continue;
+      ++histogram.at(static_cast<std::size_t>(8.0F * (disparity_px - std::floor(disparity_px))));
+      errors_px.push_back(std::abs(disparity_px - static_cast<float>(slope(u, v))));
+    }
+  }
+  ASSERT_GT(errors_px.size(), 440U * 500U * 99U / 100U);
+  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
+  std::nth_element(errors_px.begin(), middle, errors_px.end());
+  EXPECT_LT(*middle, 0.03F);
+  // OpenCV's matcher puts four times the equal share into one of sixteen bins, a sixth into
+  // another.
+  const double equal_share = static_cast<double>(errors_px.size()) / 8.0;
+  for (const int count : histogram) EXPECT_NEAR(count, equal_share, 0.35 * equal_share);
+}
+
+TEST(Match, KeepsTheOutlineOfASquareBeforeAWall) {
+  const RectifiedPair pair = test::pair_of(wall_and_square);
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  const cv::Mat1b is_near = found > 30.0F;
+  EXPECT_NEAR(cv::countNonZero(is_near), 159 * 159, 159 * 159 / 20);
+}
+
+TEST(Match, LeavesWhatOnlyTheLeftCameraSees) {
+  const RectifiedPair pair = test::pair_of([](int, int) { return 32.0; });
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  EXPECT_EQ(cv::countNonZero(found.colRange(0, 31)), 0);
+}
+
+TEST(Match, RefusesImagesOfDifferentSizes) {
+  EXPECT_THROW(match(cv::Mat1b(48, 64, uchar{0}), cv::Mat1b(48, 60, uchar{0})),
+               std::invalid_argument);
+}
+
+TEST(Match, RefusesMoreDisparitiesThanAByteHolds) {
+  MatcherParams params;
+  params.semi_global.num_disparities = 256;
+  EXPECT_THROW(match(cv::Mat1b(48, 640, uchar{0}), cv::Mat1b(48, 640, uchar{0}), params),
+               std::invalid_argument);
+}
+
+TEST(Match, FindsNothingInImagesWithoutTexture) {
+  const cv::Mat1b grey(48, 640, uchar{128});
+  EXPECT_EQ(cv::countNonZero(match(grey, grey).disparity_px), 0);
+}
+
+}  // namespace
+}  // namespace limbcast::reconstructor
