@@ -60,4 +60,4 @@ make_log demo \
 # shellcheck disable=SC2046
 make_log multi $(frames multi multi12 1 2 3 5 6 7 8 10)
 # shellcheck disable=SC2046
-make_log nobody $(frames nohuman nohuman12 0 1 2 3 5 8 9 11)
+make_log nobody $(frames nohuman nohuman12 0 1 2 3 5 8 9 10)
