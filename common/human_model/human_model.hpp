@@ -50,7 +50,7 @@ struct HumanModel {
   std::string name;
   /// Lengths times this are tried first; Eq. 2 tells how far off that is.
   double start_scale = 1.0;
-  std::string length_limits_source;  ///< where shortest and longest links were published
+  std::string length_limits_source;    ///< where shortest and longest links were published
   std::array<Link, kLinkCount> links;  ///< by the number of Table I
   std::array<DegreeOfFreedom, kDegreesOfFreedom> degrees_of_freedom;
   std::vector<TypicalPose> typical_poses;  ///< 27 of them

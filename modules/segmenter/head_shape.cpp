@@ -107,8 +107,8 @@ float torso_score(const Probe& probe, float z_m) {
   float sum = 0.0F;
   for (const float down_m : kTorsoDown_m) {
     for (int i = 0; i < kTorsoColumns; ++i) {
-      const float q =
-          probe.depth_m({static_cast<float>(i - kTorsoColumns / 2) * kTorsoSpacing_m, -down_m});
+      const int column = i - kTorsoColumns / 2;
+      const float q = probe.depth_m({static_cast<float>(column) * kTorsoSpacing_m, -down_m});
       if (q < 0.0F)
         sum += kOutside;
       else if (q > 0.0F && std::abs(q - z_m) < kTorsoStep_m)

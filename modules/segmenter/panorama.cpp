@@ -69,8 +69,9 @@ void fill_gaps(int radius_px, Lattice& panorama) {
     const std::size_t from = pixel_of_label[static_cast<std::size_t>(nearest(k))];
     const float depth_m = panorama.depth_m[from];
     const auto width = static_cast<std::size_t>(panorama.width);
-    const float azimuth_rad = (static_cast<float>(i % width) + 0.5F) / panorama.focal_px - kPi;
-    const float slope = kMaxSlope - (static_cast<float>(i / width) + 0.5F) / panorama.focal_px;
+    const std::size_t column = i % width, row = i / width;
+    const float azimuth_rad = (static_cast<float>(column) + 0.5F) / panorama.focal_px - kPi;
+    const float slope = kMaxSlope - (static_cast<float>(row) + 0.5F) / panorama.focal_px;
     panorama.depth_m[i] = depth_m;
     panorama.level_m[i] = {depth_m * std::sin(azimuth_rad), depth_m * std::cos(azimuth_rad),
                            panorama.frame.sensor_height_m + slope * depth_m};

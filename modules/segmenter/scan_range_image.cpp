@@ -63,7 +63,8 @@ std::vector<int> draw(const RangeImageSource& source, RangeImage& image) {
     const Eigen::Vector2f px = image.camera.project(p);
     const int u = static_cast<int>(std::lround(px.x())), v = static_cast<int>(std::lround(px.y()));
     if (u < 0 || v < 0 || u >= image.camera.width || v >= image.camera.height) continue;
-    const auto k = static_cast<std::size_t>(v * image.camera.width + u);
+    const int pixel = v * image.camera.width + u;
+    const auto k = static_cast<std::size_t>(pixel);
     if (point_of[k] >= 0 && image.depth_m[k] <= p.z()) continue;
     image.depth_m[k] = p.z();
     point_of[k] = static_cast<int>(i);

@@ -68,9 +68,10 @@ SkinColor::SkinColor() {
     for (int g = 0; g < 32; ++g) {
       for (int b = 0; b < 32; ++b) {
         const double red = 8.0 * r + 4.0, green = 8.0 * g + 4.0, blue = 8.0 * b + 4.0;
-        const std::size_t i = static_cast<std::size_t>((r * 32 + g) * 32 + b);
-        table_[i] = static_cast<float>(std::log(likelihood(kSkin, red, green, blue)) -
-                                       std::log(likelihood(kOther, red, green, blue)));
+        const int i = (r * 32 + g) * 32 + b;
+        table_[static_cast<std::size_t>(i)] =
+            static_cast<float>(std::log(likelihood(kSkin, red, green, blue)) -
+                               std::log(likelihood(kOther, red, green, blue)));
       }
     }
   }
