@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Replays the data with truth with method=paper and method=refined and prints the table of README.md.
 #   tests/accuracy/measure.sh [DATA_DIR [BODIES]]
-# DATA_DIR: default ../shared/data; BODIES: default D4,D5, the checking half (nothing was tuned on it).
+# DATA_DIR: default ../shared/data; BODIES: default D4,D5, the checking half (README.md says what has seen it).
 # The poses and all figures (JSON) stay in build/accuracy/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
