@@ -20,7 +20,8 @@ cmake --preset ci
 cmake --build --preset ci
 
 step "clang-tidy on changed files"
-# Only what the build compiles (lcmtypes/examples are built against the packages). Changed: against the commit that LIMBCAST_TIDY_BASE names, or else by the last commit and the work tree.
+# Only what the build compiles (lcmtypes/examples are built against the packages). Changed: against the commit that
+# LIMBCAST_TIDY_BASE names, or else by the last commit and the work tree.
 base=${LIMBCAST_TIDY_BASE:-$(git rev-parse --verify -q HEAD~1 || git rev-parse HEAD)}
 changed=$(git diff --name-only --diff-filter=d "$base" -- 'common/*.cpp' 'modules/*.cpp' 'tests/*.cpp' | sort -u)
 if [ -n "$changed" ]; then
