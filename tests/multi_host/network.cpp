@@ -69,10 +69,20 @@ InNamespace::~InNamespace() {
 
 std::optional<std::string> Network::why_impossible() {
   const std::string name = namespace_name("probe");
-  const RunResult result = run({"ip", "netns", "add", name});
+  std::optional<std::string> reason;
+  // Where the last one works (in a chroot it does not, for one), all that a network is made of
+  // does.
+  const std::vector<std::vector<std::string>> needed = {
+      {"ip", "netns", "add", name},
+      {"ip", "netns", "exec", name, "ip", "link", "add", "br0", "type", "bridge"}};
+  for (const std::vector<std::string>& command : needed) {
+    const RunResult result = run(command);
+    if (result.exit_code == 0) continue;
+    reason = "needs root, iproute2 and network namespaces, but was told: " + result.output;
+    break;
+  }
   run({"ip", "netns", "del", name});
-  if (result.exit_code == 0) return std::nullopt;
-  return "needs root and iproute2: 'ip netns add' said: " + result.output;
+  return reason;
 }
 
 Network::Network(const std::vector<std::string>& hosts) {
