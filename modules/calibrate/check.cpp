@@ -62,7 +62,8 @@ std::optional<double> CheckResult::median_length_error() const {
 CalibrationCheck::CalibrationCheck(StereoCalibration calibration, const Board& board,
                                    const CheckParams& params)
     : calibration_(std::move(calibration)), board_(board), params_(params) {
-  if (!calibration_.rectification) calibration_.rectification = rectify(calibration_);
+  if (!calibration_.rectification)
+    calibration_.rectification = reconstructor::compute_rectification(calibration_);
 }
 
 void CalibrationCheck::add(const GreyPair& pair) {

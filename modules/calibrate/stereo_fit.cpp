@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "modules/calibrate/text.hpp"
+#include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -140,7 +141,7 @@ StereoFit fit_once(const std::vector<View>& views, const Board& board, const cv:
   fit.calibration.right = to_calibration(right, size);
   cv::cv2eigen(R, fit.calibration.R);
   cv::cv2eigen(T, fit.calibration.T);
-  fit.calibration.rectification = rectify(fit.calibration);
+  fit.calibration.rectification = reconstructor::compute_rectification(fit.calibration);
   fit.left = left.uncertainty;
   fit.right = right.uncertainty;
   fit.views = views;
@@ -243,25 +244,6 @@ std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels
   cv::undistortPoints(exact, result, camera_matrix(lens.camera), lens.distortion, to_cv<3, 3>(R),
                       to_cv<3, 4>(P));
   return result;
-}
-
-Rectification rectify(const StereoCalibration& calibration) {
-  const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
-  cv::Mat R1;
-  cv::Mat R2;
-  cv::Mat P1;
-  cv::Mat P2;
-  cv::Mat Q;
-  cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
-                    camera_matrix(calibration.right.camera), calibration.right.distortion, size,
-                    to_cv<3, 3>(calibration.R), to_cv<3, 1>(calibration.T), R1, R2, P1, P2, Q,
-                    cv::CALIB_ZERO_DISPARITY, 0.0, size);
-  Rectification rectification;
-  cv::cv2eigen(R1, rectification.R1);
-  cv::cv2eigen(R2, rectification.R2);
-  cv::cv2eigen(P1, rectification.P1);
-  cv::cv2eigen(P2, rectification.P2);
-  return rectification;
 }
 
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,

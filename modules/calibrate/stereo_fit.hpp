@@ -50,9 +50,6 @@ struct StereoFit {
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      const FitParams& params = {});
 
-/// Rectification as cv::stereoRectify gives it (Bouguet), without black borders.
-Rectification rectify(const StereoCalibration& calibration);
-
 /// Where these pixels of a raw image stand in the rectified one.
 std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels,
                                           const LensCalibration& lens, const Eigen::Matrix3d& R,

@@ -21,21 +21,6 @@ cv::Matx<double, kRows, kColumns> to_cv(const Eigen::Matrix<double, kRows, kColu
   return result;
 }
 
-Rectification compute_rectification(const StereoCalibration& calibration) {
-  const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
-  cv::Mat R1, R2, P1, P2, Q;
-  cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
-                    camera_matrix(calibration.right.camera), calibration.right.distortion, size,
-                    to_cv<3, 3>(calibration.R), to_cv<3, 1>(calibration.T), R1, R2, P1, P2, Q,
-                    cv::CALIB_ZERO_DISPARITY, 0.0, size);
-  Rectification result;
-  cv::cv2eigen(R1, result.R1);
-  cv::cv2eigen(R2, result.R2);
-  cv::cv2eigen(P1, result.P1);
-  cv::cv2eigen(P2, result.P2);
-  return result;
-}
-
 /// Baseline of P2 = [f 0 cx -f*B; ...]; throws where the pair is no left and right one.
 double checked_baseline_m(const Rectification& rectification) {
   const double focal_px = rectification.P2(0, 0);
@@ -91,6 +76,21 @@ void check_size(const cv::Mat& image, const PinholeCamera& lens, const char* sid
 }
 
 }  // namespace
+
+Rectification compute_rectification(const StereoCalibration& calibration) {
+  const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
+  cv::Mat R1, R2, P1, P2, Q;
+  cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
+                    camera_matrix(calibration.right.camera), calibration.right.distortion, size,
+                    to_cv<3, 3>(calibration.R), to_cv<3, 1>(calibration.T), R1, R2, P1, P2, Q,
+                    cv::CALIB_ZERO_DISPARITY, 0.0, size);
+  Rectification result;
+  cv::cv2eigen(R1, result.R1);
+  cv::cv2eigen(R2, result.R2);
+  cv::cv2eigen(P1, result.P1);
+  cv::cv2eigen(P2, result.P2);
+  return result;
+}
 
 Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
     : lens_left_(calibration.left.camera), lens_right_(calibration.right.camera) {

@@ -6,6 +6,10 @@
 
 namespace limbcast::reconstructor {
 
+/// What turns a calibrated pair into one whose rows match: cv::stereoRectify (Bouguet), without
+/// black borders.
+Rectification compute_rectification(const StereoCalibration& calibration);
+
 /// A pair whose epipolar lines are the image rows, and both cameras' principal points the same.
 struct RectifiedPair {
   cv::Mat left, right;
