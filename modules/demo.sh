@@ -102,6 +102,15 @@ cleanup
 trap cleanup EXIT
 pids=()
 [ -s "$output/poses.txt" ] || { tail -n 3 "$output/processes/"*.txt >&2; fail "no pose came out, see above"; }
+sent=$(sed -n 's/.* \([0-9]*\) frames sent$/\1/p' "$output/processes/camera.txt")
+posed=$(cut -d ' ' -f 1 "$output/poses.txt" | sort -u | wc -l)
+echo "$posed of $sent frames have their poses"
+if [ "$posed" -lt "$sent" ]; then
+  # Live, a busy machine skips frames rather than fall behind; a replay skips none.
+  echo "(this machine was too busy for $rate frames a second; the rest follows in a replay of the recording)"
+  "$bin/limbcast-replay" "$run_log" "$output/replayed.log"
+  run_log=$output/replayed.log
+fi
 
 step 4 "Pictures"
 "$bin/limbcast-viewer" "$run_log" --png "$output/pictures"
