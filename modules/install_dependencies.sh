@@ -11,7 +11,8 @@ packages_run=(
 packages_test=(
   libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev
   clang-format clang-tidy jq
-  default-jdk-headless liblcm-java
+  default-jdk-headless default-jre liblcm-java libjchart2d-java junit4
+  xvfb xdotool imagemagick
   libfaketime systemd help2man
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good)
 

@@ -56,8 +56,9 @@ TEST_F(Packages, HoldTypesForCppAndJava) {
         "./usr/share/doc/limbcast-dev/examples/subscriber.cpp\n"})
     EXPECT_THAT(contents, HasSubstr(file));
   if (fs::exists(std::string(LIMBCAST_BUILD_DIR) + "/share/java/limbcast_types.jar")) {
-    EXPECT_THAT(tell("--contents", "limbcast-java"),
-                HasSubstr("./usr/share/java/limbcast_types.jar\n"));
+    const std::string java = tell("--contents", "limbcast-java");
+    EXPECT_THAT(java, HasSubstr("./usr/share/java/limbcast_types.jar\n"));
+    EXPECT_THAT(java, HasSubstr("./usr/share/java/limbcast_spy.jar\n"));
   }
 }
 
