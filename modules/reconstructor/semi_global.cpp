@@ -5,165 +5,167 @@
 #include <cstdint>
 #include <cstdlib>
 #include <opencv2/core.hpp>
-#include <opencv2/core/hal/intrin.hpp>
 #include <stdexcept>
 #include <vector>
 
-#include "modules/reconstructor/census.hpp"
+#include "modules/reconstructor/matching_costs.hpp"
 #include "modules/reconstructor/simd.hpp"
 
-// Costs are bytes, and neighbouring pixels stand in neighbouring bytes: of each line of pixels
-// first all pixels at disparity 0, then all at 1, ... So every step of the method is a plain loop
-// over pixels that the compiler turns into vector instructions, with no work across lanes. A path
-// from above goes from row to row; a path from the left does the same on the transposed image.
+// Costs and sums are bytes, those of a pixel's disparities side by side. Rows are worked on from
+// above to below, a few at a time, so that what is worked on stays in the cache: of a strip of rows
+// only the sums of the path from below, which has to come first, are kept; costs are rather
+// computed twice.
 namespace limbcast::reconstructor {
 namespace {
 
 using Byte = std::uint8_t;
 
-/// Rows that are matched together: few, so that their costs stay in the cache.
+/// Rows that are matched together.
 constexpr int kStripRows = 64;
 /// Rows above and below a strip where its vertical paths begin.
 constexpr int kRunUpRows = 16;
+/// Rows whose horizontal paths go side by side: each step waits for the one before, and meanwhile
+/// the processor does the other rows'.
+constexpr int kGroupRows = 4;
 
-/// Costs [line][disparity][pixel]; a line is a row of the image, or a column.
-class Volume {
+/// Bytes before and after a pixel's sums, which stand for disparities that are not searched.
+constexpr int kGap = 16;
+constexpr Byte kTooHigh = 200;
+
+/// Sums along a path for pixels one after the other.
+class PathSums {
  public:
-  /// Gives it another shape; what it held is lost.
-  void reshape(int num_lines, int num_disparities, int num_pixels) {
-    num_pixels_ = static_cast<std::size_t>(num_pixels);
-    // Not a power of two, or all lines would meet in the same few sets of the cache.
-    line_size_ = num_disparities * num_pixels_ + 64;
-    if (bytes_.size() < line_size_ * num_lines) bytes_.resize(line_size_ * num_lines);
+  /// Room for pixels whose costs are `size` bytes.
+  void reshape(int num_pixels, int size) {
+    if (num_pixels == num_pixels_ && size == size_) return;
+    num_pixels_ = num_pixels;
+    size_ = size;
+    bytes_.assign(kGap + static_cast<std::size_t>(num_pixels) * (size + kGap), kTooHigh);
   }
-  Byte* line(int index) { return &bytes_[line_size_ * index]; }
-  Byte* row(int index, int disparity) { return line(index) + num_pixels_ * disparity; }
+  /// As before a path's first pixel.
+  void set_to_zero() {
+    for (int i = 0; i < num_pixels_; ++i) std::fill_n(pixel(i), size_, Byte{0});
+  }
+  Byte* pixel(int index) {
+    return &bytes_[kGap + static_cast<std::size_t>(index) * (size_ + kGap)];
+  }
 
  private:
-  std::size_t num_pixels_ = 0, line_size_ = 0;
+  int num_pixels_ = 0, size_ = 0;
   std::vector<Byte> bytes_;
+};
+
+/// What all paths share.
+struct PathShape {
+  int width;          ///< pixels of a row
+  int num_registers;  ///< of a pixel's costs
+  Byte small_step;
 };
 
 /// Room for matching a strip, kept from one to the next: asking the system for it each time takes
 /// longer than filling it.
 struct Workspace {
-  Volume costs, sums, horizontal_sums;
-  std::array<std::vector<Byte>, 2> cost_turns, sum_turns;  ///< this line's and the one before's
-  void reserve_turns(std::size_t size) {
-    for (auto* turns : {&cost_turns, &sum_turns})
-      for (auto& turn : *turns) turn.resize(size);
-  }
+  std::vector<PathSums> from_below;                 ///< of each row of the strip
+  std::array<PathSums, 2> run_up;                   ///< of the rows below it
+  std::array<std::vector<Byte>, kGroupRows> costs;  ///< [pixel][disparity]
+  std::array<PathSums, kGroupRows> from_left;   ///< of what is left of the row, then of its pixels
+  std::array<PathSums, kGroupRows> from_right;  ///< of the last two pixels
+  std::array<PathSums, kGroupRows> from_above;
+  std::vector<Byte> lowest;                ///< of the vertical paths
+  std::vector<std::uint16_t> left, right;  ///< see find_lowest
 };
 
-using PlaneRows = std::array<const Byte*, Census::kNumPlanes>;
+/// Where a group's rows stand, pixel after pixel.
+struct Group {
+  int num_rows;
+  std::array<const Byte*, kGroupRows> horizontal_steps;  ///< large step from the left neighbour
+  std::array<Byte*, kGroupRows> costs, from_left, from_right, from_above, from_below;
+};
 
-/// Differing bits of two pixels' census, for `count` pixels.
-LIMBCAST_SIMD void hamming_distance(const PlaneRows& left, const PlaneRows& right, int count,
-                                    Byte* __restrict cost) {
-  const Byte* __restrict l0 = left[0];
-  const Byte* __restrict l1 = left[1];
-  const Byte* __restrict l2 = left[2];
-  const Byte* __restrict r0 = right[0];
-  const Byte* __restrict r1 = right[1];
-  const Byte* __restrict r2 = right[2];
-  // Bits are counted in pairs, then in nibbles; these are added over the planes (at most 3 x 4)
-  // before the two of a byte are.
-  const auto nibbles = [](Byte bits) {
-    const auto pairs = static_cast<Byte>(bits - ((bits >> 1) & 0x55));
-    return static_cast<Byte>((pairs & 0x33) + ((pairs >> 2) & 0x33));
-  };
-  for (int i = 0; i < count; ++i) {
-    const auto sum =
-        static_cast<Byte>(nibbles(l0[i] ^ r0[i]) + nibbles(l1[i] ^ r1[i]) + nibbles(l2[i] ^ r2[i]));
-    cost[i] = static_cast<Byte>((sum & 0x0f) + (sum >> 4));
-  }
-}
-
-/// One step of a path for all pixels of a line, from the line before to this one:
+/// One step of a path, from the pixel before to this one:
 /// L(d) = C(d) + min(L'(d), L'(d - 1) + P1, L'(d + 1) + P1, min L' + P2) - min L'.
-/// `lowest` is min L' before and min L after; `jump` is room for one row.
-LIMBCAST_SIMD void advance(const Byte* __restrict cost, const Byte* __restrict before,
-                           const Byte* __restrict large_step, int num_disparities, int count,
-                           Byte small_step, Byte* __restrict lowest, Byte* __restrict jump,
-                           Byte* __restrict now) {
-  Byte* __restrict low_now = jump + count;
-  for (int i = 0; i < count; ++i) {
-    jump[i] = static_cast<Byte>(lowest[i] + large_step[i]);
-    low_now[i] = 255;
+/// Returns min L.
+[[gnu::always_inline]] inline Byte advance(const Byte* __restrict cost,
+                                           const Byte* __restrict before, Byte lowest_before,
+                                           Byte small_step, Byte large_step, int size,
+                                           Byte* __restrict now) {
+  const auto jump = static_cast<Byte>(lowest_before + large_step);
+  Byte lowest = 255;
+  for (int d = 0; d < size; ++d) {
+    const auto stepped = static_cast<Byte>(std::min(before[d - 1], before[d + 1]) + small_step);
+    const Byte best = std::min(std::min(before[d], jump), stepped);
+    now[d] = static_cast<Byte>(cost[d] + static_cast<Byte>(best - lowest_before));
+    lowest = std::min(lowest, now[d]);
   }
-  for (int d = 0; d < num_disparities; ++d) {
-    const Byte* same = before + d * count;
-    const Byte* less = d > 0 ? same - count : jump;
-    const Byte* more = d + 1 < num_disparities ? same + count : jump;
-    const Byte* c = cost + d * count;
-    Byte* out = now + d * count;
-    for (int i = 0; i < count; ++i) {
-      const auto stepped = static_cast<Byte>(std::min(less[i], more[i]) + small_step);
-      const Byte best = std::min(std::min(same[i], jump[i]), stepped);
-      const auto sum = static_cast<Byte>(c[i] + static_cast<Byte>(best - lowest[i]));
-      out[i] = sum;
-      low_now[i] = std::min(low_now[i], sum);
+  return lowest;
+}
+
+/// A step of the vertical paths, from the row before to this one; `lowest` is min L of each pixel.
+LIMBCAST_SIMD void advance_row(const PathShape& shape, const Byte* cost, const Byte* large_steps,
+                               const Byte* before, Byte* lowest, Byte* now) {
+  const int size = shape.num_registers * kCostsInARegister;  // a loop without a rest
+  for (int u = 0; u < shape.width; ++u) {
+    lowest[u] = advance(cost, before, lowest[u], shape.small_step, large_steps[u], size, now);
+    cost += size;
+    before += size + kGap;
+    now += size + kGap;
+  }
+}
+
+LIMBCAST_SIMD void advance_from_left(const PathShape& shape, Group group) {
+  const int size = shape.num_registers * kCostsInARegister;
+  std::array<Byte, kGroupRows> lowest{};
+  for (int u = 0; u < shape.width; ++u) {
+    for (int i = 0; i < group.num_rows; ++i) {
+      Byte* before = group.from_left[i];
+      group.from_left[i] += size + kGap;
+      lowest[i] = advance(group.costs[i], before, lowest[i], shape.small_step,
+                          group.horizontal_steps[i][u], size, group.from_left[i]);
+      group.costs[i] += size;
     }
   }
-  for (int i = 0; i < count; ++i) lowest[i] = low_now[i];
 }
 
-LIMBCAST_SIMD void add(const Byte* __restrict summand, std::size_t count, Byte* __restrict sum) {
-  for (std::size_t i = 0; i < count; ++i) sum[i] = static_cast<Byte>(sum[i] + summand[i]);
-}
-
-LIMBCAST_SIMD void average(const Byte* __restrict a, const Byte* __restrict b, std::size_t count,
-                           Byte* __restrict result) {
-  for (std::size_t i = 0; i < count; ++i) result[i] = static_cast<Byte>((a[i] + b[i] + 1) >> 1);
-}
-
-/// Takes disparity `d` where its cost is lower than the lowest so far.
-LIMBCAST_SIMD void keep_lower(const Byte* __restrict cost, Byte d, int count,
-                              Byte* __restrict lowest, Byte* __restrict disparity) {
-  for (int i = 0; i < count; ++i) {
-    const Byte now = cost[i], before = lowest[i];
-    const auto is_lower = static_cast<Byte>(now < before ? 0xff : 0);  // a mask, no branch
-    disparity[i] = static_cast<Byte>((d & is_lower) | (disparity[i] & ~is_lower));
-    lowest[i] = std::min(now, before);
-  }
-}
-
-/// A path on its way from line to line.
-class Path {
- public:
-  Path(int num_disparities, int count, Byte small_step)
-      : num_disparities_(num_disparities),
-        count_(count),
-        small_step_(small_step),
-        lowest_(count),
-        scratch_(2UL * count) {}
-  /// Sums along the path at the next line: `cost` itself where the path begins.
-  void advance(const Byte* cost, const Byte* large_step, Byte* sums) {
-    if (before_ == nullptr) {
-      std::copy_n(cost, static_cast<std::size_t>(num_disparities_) * count_, sums);
-      std::fill(lowest_.begin(), lowest_.end(), Byte{255});
-      for (int d = 0; d < num_disparities_; ++d)
-        for (int i = 0; i < count_; ++i)
-          lowest_[i] = std::min(lowest_[i], sums[static_cast<std::size_t>(d) * count_ + i]);
-    } else {
-      reconstructor::advance(cost, before_, large_step, num_disparities_, count_, small_step_,
-                             lowest_.data(), scratch_.data(), sums);
+/// The last path. With its sums, the means of all four take the costs' place.
+LIMBCAST_SIMD void advance_from_right(const PathShape& shape, Group group) {
+  const int size = shape.num_registers * kCostsInARegister;
+  std::array<Byte, kGroupRows> lowest{};
+  for (int u = shape.width - 1; u >= 0; --u) {
+    const int before = std::min(u + 1, shape.width - 1);
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(u) * (size + kGap);
+    for (int i = 0; i < group.num_rows; ++i) {
+      Byte* __restrict costs = group.costs[i] + static_cast<std::ptrdiff_t>(u) * size;
+      Byte* __restrict right = group.from_right[i] + u % 2 * (size + kGap);
+      lowest[i] = advance(costs, group.from_right[i] + (u + 1) % 2 * (size + kGap), lowest[i],
+                          shape.small_step, group.horizontal_steps[i][before], size, right);
+      const Byte* __restrict left = group.from_left[i] + at + size + kGap;
+      const Byte* __restrict above = group.from_above[i] + at;
+      const Byte* __restrict below = group.from_below[i] + at;
+      for (int d = 0; d < size; ++d) {
+        const auto horizontal = static_cast<Byte>(left[d] + right[d]);
+        const auto vertical = static_cast<Byte>(above[d] + below[d]);
+        costs[d] = static_cast<Byte>((horizontal + vertical + 1) >> 1);
+      }
     }
-    before_ = sums;
   }
+}
 
- private:
-  int num_disparities_, count_;
-  Byte small_step_;
-  const Byte* before_ = nullptr;
-  std::vector<Byte> lowest_, scratch_;
-};
-
-/// What the paths along one axis need of the images.
-struct Axis {
-  Census left, right;
-  cv::Mat1b large_step;  ///< cost of a large step from the line before
-};
+/// Lowest of each pixel's costs and its disparity, as cost * 256 + disparity; of the right image's
+/// pixel u at right_mirrored[width - 1 - u]: it sees at d what the left image's pixel u + d sees.
+LIMBCAST_SIMD void find_lowest(const PathShape& shape, const Byte* costs, int num_disparities,
+                               std::uint16_t* left, std::uint16_t* __restrict right_mirrored) {
+  const int size = shape.num_registers * kCostsInARegister;
+  for (int u = 0; u < shape.width; ++u, costs += size) {
+    std::uint16_t* __restrict right = right_mirrored + (shape.width - 1 - u);
+    std::uint16_t lowest = 0xffff;
+    for (int d = 0; d < num_disparities; ++d) {
+      const auto key = static_cast<std::uint16_t>(costs[d] << 8 | d);
+      lowest = std::min(lowest, key);
+      right[d] = std::min(right[d], key);
+    }
+    left[u] = lowest;
+  }
+}
 
 cv::Mat1b large_step_costs(const cv::Mat1b& grey, const SemiGlobalParams& params) {
   cv::Mat1b table(1, 256);
@@ -179,145 +181,105 @@ cv::Mat1b large_step_costs(const cv::Mat1b& grey, const SemiGlobalParams& params
   return costs;
 }
 
-PlaneRows rows_of(const Census& census, int line, int first) {
-  PlaneRows rows{};
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = census.planes[i][line] + first;
-  return rows;
-}
-
-/// Transposes the plane of one disparity: pixel p of line l becomes pixel l of line p.
-void transpose(Volume& from, int num_lines, int num_pixels, int disparity, Volume& to) {
-  constexpr int kBlock = cv::v_uint8x16::nlanes;
-  const auto one_by_one = [&](int line_begin, int line_end, int pixel_begin, int pixel_end) {
-    for (int l = line_begin; l < line_end; ++l)
-      for (int p = pixel_begin; p < pixel_end; ++p)
-        to.row(p, disparity)[l] = from.row(l, disparity)[p];
-  };
-  const int whole_lines = num_lines / kBlock * kBlock, whole_pixels = num_pixels / kBlock * kBlock;
-  for (int l = 0; l < whole_lines; l += kBlock) {
-    for (int p = 0; p < whole_pixels; p += kBlock) {
-      std::array<cv::v_uint8x16, kBlock> block, shuffled;
-      for (int i = 0; i < kBlock; ++i) block[i] = cv::v_load(from.row(l + i, disparity) + p);
-      // A perfect shuffle of the block's bytes moves one bit of the line's number to the pixel's.
-      for (int bit = 1; bit < kBlock; bit *= 2) {
-        for (int i = 0; i < kBlock / 2; ++i)
-          cv::v_zip(block[i], block[i + kBlock / 2], shuffled[2 * i], shuffled[2 * i + 1]);
-        std::swap(block, shuffled);
-      }
-      for (int i = 0; i < kBlock; ++i) cv::v_store(to.row(p + i, disparity) + l, block[i]);
-    }
-  }
-  one_by_one(0, whole_lines, whole_pixels, num_pixels);
-  one_by_one(whole_lines, num_lines, 0, num_pixels);
-}
-
 /// Matches strips of rows, each by itself.
 class StripMatcher {
  public:
   StripMatcher(const cv::Mat1b& left, const cv::Mat1b& right, const SemiGlobalParams& params)
-      : params_(params), width_(left.cols), height_(left.rows) {
-    rows_ = {census_of(left), census_of(right), large_step_costs(left, params)};
-    for (cv::Mat1b& plane : rows_.right.planes)
-      cv::copyMakeBorder(plane, plane, 0, 0, params.num_disparities, 0, cv::BORDER_REPLICATE);
-    columns_.large_step = large_step_costs(left.t(), params);
-    const Census right_census = census_of(right);
-    for (int i = 0; i < Census::kNumPlanes; ++i) {
-      cv::transpose(rows_.left.planes[i], columns_.left.planes[i]);
-      cv::transpose(right_census.planes[i], columns_.right.planes[i]);
-    }
-  }
+      : params_(params),
+        width_(left.cols),
+        height_(left.rows),
+        costs_(left, right, params.num_disparities),
+        vertical_steps_(large_step_costs(left, params)),
+        horizontal_steps_(large_step_costs(left.t(), params).t()),
+        shape_{width_, costs_.size() / kCostsInARegister,
+               static_cast<Byte>(params.small_step_cost)} {}
 
   void match(int begin, int end, Workspace& work, cv::Mat1f& disparity_px) const {
-    sum_horizontal_paths(begin, end, work);
-    sum_vertical_paths(begin, end, work);
-    std::vector<Byte>& costs = work.cost_turns[0];
-    for (int v = begin; v < end; ++v) {
-      average(work.horizontal_sums.line(v - begin), work.sums.line(v - begin), costs.size(),
-              costs.data());
-      choose(costs, disparity_px[v]);
+    reshape(work);
+    sum_from_below(begin, end, work);
+    begin_from_above(begin, work);
+    for (int v = begin; v < end; v += kGroupRows) {
+      const int num_rows = std::min(kGroupRows, end - v);
+      for (int i = 0; i < num_rows; ++i) advance_from_above(v + i, work);
+      const Group group = group_of(begin, v, num_rows, work);
+      advance_from_left(shape_, group);
+      advance_from_right(shape_, group);
+      for (int i = 0; i < num_rows; ++i) choose(work.costs.at(i), work, disparity_px[v + i]);
     }
   }
 
  private:
-  std::size_t line_size(int count) const {
-    return static_cast<std::size_t>(params_.num_disparities) * count;
-  }
-  Path path(int count) const {
-    return {params_.num_disparities, count, static_cast<Byte>(params_.small_step_cost)};
-  }
-
-  void match_column(int u, int begin, int count, Byte* cost) const {
-    for (int d = 0; d < params_.num_disparities; ++d)
-      hamming_distance(rows_of(columns_.left, u, begin),
-                       rows_of(columns_.right, std::max(u - d, 0), begin), count,
-                       cost + static_cast<std::size_t>(d) * count);
-  }
-  void match_row(int v, Byte* cost) const {
-    for (int d = 0; d < params_.num_disparities; ++d)
-      hamming_distance(rows_of(rows_.left, v, 0),
-                       rows_of(rows_.right, v, params_.num_disparities - d), width_,
-                       cost + static_cast<std::size_t>(d) * width_);
-  }
-
-  void sum_horizontal_paths(int begin, int end, Workspace& work) const {
-    const int num_disparities = params_.num_disparities, count = end - begin;
-    work.costs.reshape(width_, num_disparities, count);
-    work.sums.reshape(width_, num_disparities, count);
-    work.reserve_turns(line_size(count));
-    Path from_left = path(count);
-    for (int u = 0; u < width_; ++u) {
-      match_column(u, begin, count, work.costs.line(u));
-      from_left.advance(work.costs.line(u), columns_.large_step[u] + begin, work.sums.line(u));
+  void reshape(Workspace& work) const {
+    work.from_below.resize(kStripRows);
+    for (PathSums& sums : work.from_below) sums.reshape(width_, costs_.size());
+    for (PathSums& sums : work.run_up) sums.reshape(width_, costs_.size());
+    for (int i = 0; i < kGroupRows; ++i) {
+      work.costs.at(i).resize(static_cast<std::size_t>(width_) * costs_.size());
+      work.from_left.at(i).reshape(width_ + 1, costs_.size());
+      work.from_right.at(i).reshape(2, costs_.size());
+      work.from_above.at(i).reshape(width_, costs_.size());
     }
-    Path from_right = path(count);
-    for (int u = width_ - 1; u >= 0; --u) {
-      Byte* now = work.sum_turns.at(u % 2).data();
-      const int before = std::min(u + 1, width_ - 1);
-      from_right.advance(work.costs.line(u), columns_.large_step[before] + begin, now);
-      add(now, line_size(count), work.sums.line(u));
-    }
-    work.horizontal_sums.reshape(count, num_disparities, width_);
-    for (int d = 0; d < num_disparities; ++d)
-      transpose(work.sums, width_, count, d, work.horizontal_sums);
   }
 
-  void sum_vertical_paths(int begin, int end, Workspace& work) const {
-    work.costs.reshape(end - begin, params_.num_disparities, width_);
-    work.sums.reshape(end - begin, params_.num_disparities, width_);
-    work.reserve_turns(line_size(width_));
-    const auto is_inside = [&](int v) { return v >= begin && v < end; };
-    const auto cost_of = [&](int v) {
-      return is_inside(v) ? work.costs.line(v - begin) : work.cost_turns.at(v % 2).data();
+  void sum_from_below(int begin, int end, Workspace& work) const {
+    const int bottom = std::min(end + kRunUpRows, height_) - 1;
+    const auto sums_of = [&](int v) -> PathSums& {
+      return v < end ? work.from_below.at(v - begin) : work.run_up.at(v % 2);
     };
-    Path from_below = path(width_);
-    for (int v = std::min(end + kRunUpRows, height_) - 1; v >= begin; --v) {
-      match_row(v, cost_of(v));
-      Byte* now = is_inside(v) ? work.sums.line(v - begin) : work.sum_turns.at(v % 2).data();
-      from_below.advance(cost_of(v), rows_.large_step[std::min(v + 1, height_ - 1)], now);
+    PathSums* before = &work.run_up.at((bottom + 1) % 2);
+    before->set_to_zero();
+    work.lowest.assign(width_, 0);
+    Byte* costs = work.costs.front().data();
+    for (int v = bottom; v >= begin; --v) {
+      costs_.compute_row(v, costs);
+      advance_row(shape_, costs, vertical_steps_[std::min(v + 1, height_ - 1)], before->pixel(0),
+                  work.lowest.data(), sums_of(v).pixel(0));
+      before = &sums_of(v);
     }
-    Path from_above = path(width_);
-    for (int v = std::max(begin - kRunUpRows, 0); v < end; ++v) {
-      if (!is_inside(v)) match_row(v, cost_of(v));
-      Byte* now = work.sum_turns.at(v % 2).data();
-      from_above.advance(cost_of(v), rows_.large_step[v], now);
-      if (is_inside(v)) add(now, line_size(width_), work.sums.line(v - begin));
+  }
+
+  void begin_from_above(int begin, Workspace& work) const {
+    const int top = std::max(begin - kRunUpRows, 0);
+    work.from_above.at((top + kGroupRows - 1) % kGroupRows).set_to_zero();
+    work.lowest.assign(width_, 0);
+    for (int v = top; v < begin; ++v) advance_from_above(v, work);
+  }
+
+  /// Computes a row's costs, too; rows take turns with their room.
+  void advance_from_above(int v, Workspace& work) const {
+    Byte* costs = work.costs.at(v % kGroupRows).data();
+    costs_.compute_row(v, costs);
+    advance_row(shape_, costs, vertical_steps_[v],
+                work.from_above.at((v + kGroupRows - 1) % kGroupRows).pixel(0), work.lowest.data(),
+                work.from_above.at(v % kGroupRows).pixel(0));
+  }
+
+  Group group_of(int begin, int v, int num_rows, Workspace& work) const {
+    Group group{};
+    group.num_rows = num_rows;
+    for (int i = 0; i < num_rows; ++i) {
+      std::fill_n(work.from_left.at(i).pixel(0), costs_.size(), Byte{0});
+      work.from_right.at(i).set_to_zero();
+      group.horizontal_steps.at(i) = horizontal_steps_[v + i];
+      group.costs.at(i) = work.costs.at(i).data();
+      group.from_left.at(i) = work.from_left.at(i).pixel(0);
+      group.from_right.at(i) = work.from_right.at(i).pixel(0);
+      group.from_above.at(i) = work.from_above.at(i).pixel(0);
+      group.from_below.at(i) = work.from_below.at(v + i - begin).pixel(0);
     }
+    return group;
   }
 
   /// Of each pixel the disparity of lowest cost, if the right image's pixel chose it too.
-  void choose(const std::vector<Byte>& costs, float* disparity_px) const {
-    std::vector<Byte> left(width_), right(width_), lowest_left(width_, 255),
-        lowest_right(width_, 255);
-    for (int d = 0; d < params_.num_disparities; ++d) {
-      const Byte* cost = &costs[static_cast<std::size_t>(d) * width_];
-      keep_lower(cost, static_cast<Byte>(d), width_, lowest_left.data(), left.data());
-      // The right image's pixel u - d sees what the left's pixel u sees at disparity d.
-      keep_lower(cost + d, static_cast<Byte>(d), width_ - d, lowest_right.data(), right.data());
-    }
+  void choose(const std::vector<Byte>& costs, Workspace& work, float* disparity_px) const {
+    work.left.resize(width_);
+    work.right.assign(width_ + costs_.size(), 0xffff);
+    find_lowest(shape_, costs.data(), params_.num_disparities, work.left.data(), work.right.data());
+    const auto right = [&](int u) { return work.right[width_ - 1 - u] & 0xff; };
     for (int u = 0; u < width_; ++u) {
-      const int d = left[u];
+      const int d = work.left[u] & 0xff;
       const bool is_match =
-          d > 1 && d <= u && std::abs(right[u - d] - d) <= params_.max_left_right_difference_px;
+          d > 1 && d <= u && std::abs(right(u - d) - d) <= params_.max_left_right_difference_px;
       disparity_px[u] = is_match ? static_cast<float>(d) + fraction(costs, u, d) : 0.0F;
     }
   }
@@ -325,8 +287,8 @@ class StripMatcher {
   /// Where a parabola through the costs of the disparity and its neighbours is lowest [px].
   float fraction(const std::vector<Byte>& costs, int u, int d) const {
     if (d + 1 >= params_.num_disparities) return 0.0F;
-    const Byte* cost = &costs[static_cast<std::size_t>(d) * width_ + u];
-    const int less = cost[-width_] - *cost, more = cost[width_] - *cost;
+    const Byte* cost = &costs[static_cast<std::size_t>(u) * costs_.size() + d];
+    const int less = cost[-1] - *cost, more = cost[1] - *cost;
     return less + more > 0
                ? 0.5F * static_cast<float>(less - more) / static_cast<float>(less + more)
                : 0.0F;
@@ -334,7 +296,9 @@ class StripMatcher {
 
   SemiGlobalParams params_;
   int width_, height_;
-  Axis rows_, columns_;
+  MatchingCosts costs_;
+  cv::Mat1b vertical_steps_, horizontal_steps_;  ///< costs of large steps from above, from the left
+  PathShape shape_;
 };
 
 }  // namespace

@@ -67,6 +67,17 @@ TEST(Match, LeavesWhatOnlyTheLeftCameraSees) {
   EXPECT_EQ(cv::countNonZero(found.colRange(0, 31)), 0);
 }
 
+TEST(Match, SearchesNumbersOfDisparitiesThatFillNoRegister) {
+  const RectifiedPair pair = test::pair_of([](int, int) { return 32.0; });
+  MatcherParams params;
+  for (const int num_disparities : {33, 34, 50, 65}) {
+    params.semi_global.num_disparities = num_disparities;
+    const cv::Mat1f found = match(pair.left, pair.right, params).disparity_px;
+    const cv::Mat1b is_right = cv::abs(found - 32.0F) < 0.5F;
+    EXPECT_GT(cv::countNonZero(is_right.colRange(40, 630)), 0.99 * 480 * 590) << num_disparities;
+  }
+}
+
 TEST(Match, RefusesImagesOfDifferentSizes) {
   EXPECT_THROW(match(cv::Mat1b(48, 64, uchar{0}), cv::Mat1b(48, 60, uchar{0})),
                std::invalid_argument);

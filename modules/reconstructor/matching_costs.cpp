@@ -1,0 +1,67 @@
+#include "modules/reconstructor/matching_costs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <opencv2/core.hpp>
+
+#include "modules/reconstructor/simd.hpp"
+
+namespace limbcast::reconstructor {
+namespace {
+
+using Byte = std::uint8_t;
+using PlaneRows = std::array<const Byte*, Census::kNumPlanes>;
+
+PlaneRows rows_of(const Census& census, int v) {
+  PlaneRows rows{};
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = census.planes[i][v];
+  return rows;
+}
+
+/// Set bits of each half of a byte.
+inline Byte count_in_halves(Byte bits) {
+  const auto pairs = static_cast<Byte>(bits - ((bits >> 1) & 0x55));
+  return static_cast<Byte>((pairs & 0x33) + ((pairs >> 2) & 0x33));
+}
+
+LIMBCAST_SIMD void count_differing_bits(const PlaneRows& left, const PlaneRows& right_mirrored,
+                                        int width, const Byte* __restrict no_match,
+                                        int num_registers, Byte* __restrict costs) {
+  const int size = num_registers * kCostsInARegister;  // the compiler sees a loop without a rest
+  for (int u = 0; u < width; ++u, costs += size) {
+    const Byte l0 = left[0][u], l1 = left[1][u], l2 = left[2][u];
+    const int match = width - 1 - u;
+    const Byte* __restrict r0 = right_mirrored[0] + match;
+    const Byte* __restrict r1 = right_mirrored[1] + match;
+    const Byte* __restrict r2 = right_mirrored[2] + match;
+    for (int d = 0; d < size; ++d) {
+      const Byte x0 = l0 ^ r0[d], x1 = l1 ^ r1[d], x2 = l2 ^ r2[d];
+      // A full adder for each bit: three bits become a sum and a carry of twice the weight.
+      const Byte either = x0 ^ x1;
+      const Byte sum = count_in_halves(static_cast<Byte>(either ^ x2));
+      const Byte carry = count_in_halves(static_cast<Byte>((x0 & x1) | (either & x2)));
+      const auto halves = static_cast<Byte>(sum + carry + carry);
+      costs[d] = std::max(static_cast<Byte>((halves & 0x0f) + (halves >> 4)), no_match[d]);
+    }
+  }
+}
+
+}  // namespace
+
+MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities)
+    : left_(census_of(left)),
+      right_mirrored_(census_of(right)),
+      no_match_(cv::alignSize(num_disparities, kCostsInARegister), kNoMatch) {
+  std::fill_n(no_match_.begin(), num_disparities, Byte{0});
+  for (cv::Mat1b& plane : right_mirrored_.planes) {
+    cv::flip(plane, plane, 1);
+    cv::copyMakeBorder(plane, plane, 0, 0, 0, size(), cv::BORDER_REPLICATE);
+  }
+}
+
+void MatchingCosts::compute_row(int v, Byte* costs) const {
+  count_differing_bits(rows_of(left_, v), rows_of(right_mirrored_, v), left_.planes[0].cols,
+                       no_match_.data(), size() / kCostsInARegister, costs);
+}
+
+}  // namespace limbcast::reconstructor

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "modules/reconstructor/census.hpp"
+
+namespace limbcast::reconstructor {
+
+/// A pixel's costs are as many bytes as fill vector registers: the number of disparities is rounded
+/// up to a multiple of this, and what is beyond costs kNoMatch.
+constexpr int kCostsInARegister = 32;
+/// Above any sum along a path that could be the lowest, and low enough that sums stay within a
+/// byte.
+constexpr std::uint8_t kNoMatch = 127;
+
+/// Costs of matching pixels of the left image with pixels of the right one.
+class MatchingCosts {
+ public:
+  MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities);
+  /// Bytes of a pixel's costs.
+  int size() const { return static_cast<int>(no_match_.size()); }
+  /// Differing bits of the census of each pixel u of row v and the right image's pixel u - d, at
+  /// costs[u * size() + d]. Left of the image its border is repeated.
+  void compute_row(int v, std::uint8_t* costs) const;
+
+ private:
+  Census left_, right_mirrored_;        ///< mirrored, so that disparities grow with the address
+  std::vector<std::uint8_t> no_match_;  ///< what a cost is at least
+};
+
+}  // namespace limbcast::reconstructor
