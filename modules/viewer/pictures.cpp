@@ -17,10 +17,10 @@ constexpr float kNearest = 1.0F, kFarthest = 8.0F;
 /// Lower images have no room for the scale of distances [px].
 constexpr int kScaleRows = 120;
 
-/// Index is SegmentFilter.
+/// Index is SegmentFilter. A frame has dozens of seeds without the shape of a head: their names
+/// would hide the picture.
 constexpr std::array<const char*, 7> kFilterNames = {
-    "",       "too few points", "too many points", "seed is no head",
-    "sparse", "same person",    "no head shape"};
+    "", "too few points", "too many points", "seed is no head", "sparse", "same person", ""};
 
 cv::Mat dark(const cv::Size& size) { return {size, CV_8UC3, kBackground}; }
 
@@ -75,10 +75,10 @@ void mark_seeds(cv::Mat& image, const Viewpoint& view, const Segments& segments)
     if (segment.valid()) {
       cv::circle(image, place, 9, person_color(segment.id), 2, cv::LINE_AA);
     } else {
-      cv::drawMarker(image, place, cv::Scalar::all(200), cv::MARKER_TILTED_CROSS, 10, 1,
-                     cv::LINE_AA);
-      draw_text(image, kFilterNames[static_cast<std::size_t>(segment.rejected_by)],
-                place + cv::Point(8, 4), 0.35, cv::Scalar::all(200));
+      const std::string reason = kFilterNames.at(static_cast<std::size_t>(segment.rejected_by));
+      cv::drawMarker(image, place, cv::Scalar::all(200), cv::MARKER_TILTED_CROSS,
+                     reason.empty() ? 5 : 10, 1, cv::LINE_AA);
+      draw_text(image, reason, place + cv::Point(8, 4), 0.35, cv::Scalar::all(200));
     }
   }
 }
