@@ -67,7 +67,7 @@ class Section {
 
 /// What every program understands.
 struct CommonOptions {
-  std::string lcm_url;             ///< empty: LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0
+  std::string lcm_url;             ///< empty: LCM_DEFAULT_URL, else lcm_io::kDefaultUrl
   std::string config_file;         ///< empty: none
   std::string log_level = "info";  ///< error, warning, info, debug
 };

@@ -18,6 +18,21 @@ constexpr int kReceiveTimeoutMs = 50;
 /// How often a host without network is asked again.
 constexpr std::chrono::milliseconds kNetworkPeriod{200};
 
+/// What LCM is started with.
+std::string url_within_limits(const std::string& url) {
+  const std::string wanted = effective_url(url);
+  const auto limit = receive_buffer_limit();
+  if (!limit) return wanted;
+  std::string given = with_receive_buffer_of_at_most(*limit, wanted);
+  if (given != wanted)
+    config::log(config::LogLevel::kWarning,
+                "the kernel gives sockets " + std::to_string(*limit / 1000) +
+                    " kB instead of what " + wanted +
+                    " asks for: large messages are lost when a process is late; "
+                    "limbcast-doctor tells how to mend it");
+  return given;
+}
+
 }  // namespace
 
 std::string effective_url(const std::string& url) {
@@ -40,7 +55,7 @@ void wait_for_network(const std::string& url) {
   }
 }
 
-Bus::Bus(const std::string& url) : lcm_(effective_url(url)) {
+Bus::Bus(const std::string& url) : lcm_(url_within_limits(url)) {
   if (!lcm_.good())
     throw config::UsageError(
         "lcm-url '" + effective_url(url) +

@@ -16,8 +16,9 @@
 
 namespace limbcast::lcm_io {
 
-/// This host only, unless the user says otherwise: LCM has no authentication.
-inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
+/// This host only, unless the user says otherwise: LCM has no authentication. The buffer holds
+/// several images or clouds while a process is not scheduled.
+inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4000000";
 
 /// `url` if given, else $LCM_DEFAULT_URL, else kDefaultUrl.
 std::string effective_url(const std::string& url);
@@ -46,7 +47,8 @@ struct ReceivedMessage {
 /// here.
 class Bus {
  public:
-  /// Throws config::UsageError where LCM cannot be started with the URL.
+  /// Throws config::UsageError where LCM cannot be started with the URL. A receive buffer larger
+  /// than the kernel gives is told on stderr, and what it gives is used.
   explicit Bus(const std::string& url);
   ~Bus();
   Bus(const Bus&) = delete;

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <regex>
 #include <sstream>
 
@@ -49,6 +50,19 @@ std::optional<MulticastUrl> parse_multicast_url(const std::string& url) {
       !read_arguments(match[3], parsed))
     return std::nullopt;
   return parsed;
+}
+
+std::string with_receive_buffer_of_at_most(std::int64_t limit_bytes, const std::string& url) {
+  const auto multicast = parse_multicast_url(url);
+  if (!multicast || multicast->recv_buf_size <= limit_bytes) return url;
+  static const std::regex kBuffer("recv_buf_size=[0-9]+");
+  return std::regex_replace(url, kBuffer, "recv_buf_size=" + std::to_string(limit_bytes));
+}
+
+std::optional<std::int64_t> receive_buffer_limit() {
+  std::ifstream file("/proc/sys/net/core/rmem_max");
+  std::int64_t bytes = 0;
+  return file >> bytes ? std::optional(bytes) : std::nullopt;
 }
 
 std::string why_unreachable(const MulticastUrl& url) {

@@ -2,6 +2,7 @@
 
 #include <netinet/in.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,13 @@ struct MulticastUrl {
 
 /// Nothing for another kind of URL (memq://, file://) and for one that makes no sense.
 std::optional<MulticastUrl> parse_multicast_url(const std::string& url);
+
+/// The URL with the buffer that the kernel gives, where it asks for more than `limit_bytes`: LCM
+/// would take what it gets and complain in a form of its own.
+std::string with_receive_buffer_of_at_most(std::int64_t limit_bytes, const std::string& url);
+
+/// The largest buffer that the kernel gives to a socket [byte]; nothing where it does not tell.
+std::optional<std::int64_t> receive_buffer_limit();
 
 /// Why messages to the URL's group cannot be sent now, e.g. "Network is unreachable"; empty: they
 /// can.

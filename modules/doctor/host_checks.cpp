@@ -107,14 +107,13 @@ Findings check_receive_buffer(const HostFacts& host, const UrlFacts& url,
   const std::int64_t largest = largest_message > 0 ? largest_message : kUsualLargestMessage;
   const std::int64_t needed =
       (kBufferedMessages * largest / kBufferStep + 1) * kBufferStep;  // rounded up
-  const std::int64_t wanted = std::max(needed, url.recv_buf_size);
   Findings findings;
-  if (*host.rmem_max < wanted)
-    findings.push_back({Level::kProblem, name,
-                        "rmem_max is " + kilobytes(*host.rmem_max) + ", sockets need " +
-                            kilobytes(wanted) + " (the largest message has " + kilobytes(largest) +
-                            ")",
-                        "sysctl -w net.core.rmem_max=" + std::to_string(wanted)});
+  if (*host.rmem_max < needed)
+    findings.push_back(
+        {Level::kProblem, name,
+         "rmem_max is " + kilobytes(*host.rmem_max) + ", sockets need " + kilobytes(needed) +
+             " (the largest message has " + kilobytes(largest) + ")",
+         "sysctl -w net.core.rmem_max=" + std::to_string(std::max(needed, url.recv_buf_size))});
   // The kernel doubles what is asked for, to cover its own bookkeeping; its default is so already.
   const std::int64_t asked = url.recv_buf_size > 0 ? url.recv_buf_size : *host.rmem_default / 2;
   if (asked < needed)
@@ -124,7 +123,9 @@ Findings check_receive_buffer(const HostFacts& host, const UrlFacts& url,
          "export LCM_DEFAULT_URL='" + url_with_buffer(url, needed) + "'"});
   if (findings.empty())
     findings.push_back({Level::kGood, name,
-                        kilobytes(asked) + " for messages of up to " + kilobytes(largest), ""});
+                        kilobytes(std::min(asked, *host.rmem_max)) + " for messages of up to " +
+                            kilobytes(largest),
+                        ""});
   return findings;
 }
 

@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <limbcast/image_t.hpp>
 #include <limbcast/mounting_t.hpp>
 
@@ -107,6 +108,27 @@ TEST(Bus, PassesOnWhatAHandlerThrows) {
 }
 
 TEST(Bus, SaysThatAUrlIsUnusable) { EXPECT_THROW(Bus("nonsense://"), config::UsageError); }
+
+TEST(Bus, SaysInOneLineThatTheKernelGivesASmallerBufferAndWorks) {
+  ::testing::internal::CaptureStderr();
+  Bus bus(test::private_lcm_url() + "&recv_buf_size=999000000");
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+  EXPECT_NE(told.find("WARNING the kernel gives sockets"), std::string::npos) << told;
+  int got = 0;
+  bus.subscribe<image_t>("IMAGE", Keep::kAll, [&](const image_t& message) { got = message.width; });
+  bus.publish("IMAGE", numbered(5));
+  while (got == 0) ASSERT_TRUE(bus.handle(kNever));
+  EXPECT_EQ(got, 5);
+}
+
+TEST(DefaultUrl, StaysOnThisHostAndHasRoomForSeveralImages) {
+  const auto url = parse_multicast_url(kDefaultUrl);
+  ASSERT_TRUE(url);
+  EXPECT_EQ(url->ttl, 0);
+  constexpr int kImagePair = 200'000;  // VGA, JPEG [byte]
+  EXPECT_GE(url->recv_buf_size, 10 * kImagePair);
+}
 
 }  // namespace
 }  // namespace limbcast::lcm_io

@@ -28,6 +28,16 @@ TEST(ParseMulticastUrl, RefusesWhatIsNoMulticastUrl) {
     EXPECT_FALSE(parse_multicast_url(text)) << text;
 }
 
+TEST(WithReceiveBufferOfAtMost, AsksForNoMoreThanTheKernelGives) {
+  const std::string url = "udpm://239.1.2.3:7000?recv_buf_size=4000000&ttl=1";
+  EXPECT_EQ(with_receive_buffer_of_at_most(212'992, url),
+            "udpm://239.1.2.3:7000?recv_buf_size=212992&ttl=1");
+  EXPECT_EQ(with_receive_buffer_of_at_most(4'000'000, url), url);
+  EXPECT_EQ(with_receive_buffer_of_at_most(1, "udpm://239.1.2.3:7000?ttl=1"),
+            "udpm://239.1.2.3:7000?ttl=1");
+  EXPECT_EQ(with_receive_buffer_of_at_most(1, "memq://"), "memq://");
+}
+
 TEST(WhyUnreachable, IsEmptyWhereThereIsARoute) {
   MulticastUrl this_host;
   this_host.address = "127.0.0.1";

@@ -96,6 +96,15 @@ TEST(CheckReceiveBuffer, WantsTheKernelToAllowWhatTheUrlAsksFor) {
             "sysctl -w net.core.rmem_max=4000000");
 }
 
+TEST(CheckReceiveBuffer, IsContentWithLessThanTheUrlAsksForWhereItSuffices) {
+  HostFacts host = good_host();
+  host.rmem_max = 1'500'000;
+  const Findings findings = check_receive_buffer(host, kNetwork, 200'000);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].level, Level::kGood);
+  EXPECT_EQ(findings[0].text, "1500 kB for messages of up to 200 kB");
+}
+
 TEST(CheckReceiveBuffer, WantsAUrlThatAsksForABuffer) {
   EXPECT_EQ(mend(check_receive_buffer(good_host(), kThisHost, 0)),
             "export LCM_DEFAULT_URL='udpm://239.255.76.67:7667?ttl=0&recv_buf_size=1000000'");
