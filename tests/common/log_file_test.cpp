@@ -46,6 +46,7 @@ TEST(LogFile, GivesEventsBackInOrder) {
   }
   EXPECT_FALSE(reader.next().has_value());
   EXPECT_EQ(reader.torn_bytes(), 0);
+  EXPECT_EQ(reader.damaged_bytes(), 0);
 }
 
 TEST(LogFile, ReadsATornLogUpToTheTear) {
@@ -56,6 +57,27 @@ TEST(LogFile, ReadsATornLogUpToTheTear) {
   EXPECT_TRUE(reader.next().has_value());
   EXPECT_FALSE(reader.next().has_value());
   EXPECT_GT(reader.torn_bytes(), 0);
+}
+
+TEST(LogFile, GoesOnBehindADamagedEvent) {
+  const std::string path = write_three_events("damaged.log");
+  const auto event_bytes = static_cast<std::streamoff>(std::filesystem::file_size(path) / 3);
+  {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    // The second event says that its data is longer than the file.
+    constexpr std::streamoff kDataLengthAt = 24;
+    file.seekp(event_bytes + kDataLengthAt).put('\x7f');
+    // Its last byte is what a sync word begins with.
+    file.seekp(2 * event_bytes - 1).put('\xed');
+  }
+  LogReader reader(path);
+  EXPECT_EQ(reader.next()->utime, 100);
+  const auto behind = reader.next();
+  ASSERT_TRUE(behind.has_value());
+  EXPECT_EQ(behind->utime, 102);
+  EXPECT_EQ(reader.damaged_bytes(), event_bytes);
+  EXPECT_FALSE(reader.next().has_value());
+  EXPECT_EQ(reader.torn_bytes(), 0);
 }
 
 TEST(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {

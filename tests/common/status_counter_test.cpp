@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace limbcast::lcm_io {
 namespace {
@@ -50,11 +51,13 @@ TEST(StatusCounter, TakesNumbersOfARestartedSourceAsNewAlthoughOnceMissed) {
 }
 
 TEST(StatusCounter, TellsRatesAndPercentilesOfThePeriod) {
+  constexpr std::int64_t kFrame_us = 1'768'870'000'000'000;
   StatusCounter counter;
   for (int i = 1; i <= 100; ++i) {
     counter.received("front", i);
-    counter.published(0, i * 1000);
+    counter.published(kFrame_us, kFrame_us + i * 1000);
   }
+  EXPECT_EQ(counter.num_published(), 100);
   const StatusCounter::Period period = counter.finish_period(2.0);
   EXPECT_FLOAT_EQ(period.rate_in_hz, 50.0F);
   EXPECT_FLOAT_EQ(period.rate_out_hz, 50.0F);
