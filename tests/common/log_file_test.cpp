@@ -83,7 +83,7 @@ TEST(LogFile, GoesOnBehindADamagedEvent) {
 TEST(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {
   EXPECT_THAT(error_of("/nowhere/in.log"), HasSubstr("/nowhere/in.log: no such file"));
   const std::string empty = temporary("empty.log");
-  std::ofstream{empty};
+  std::ofstream(empty).close();
   EXPECT_THAT(error_of(empty), HasSubstr("is empty"));
   const std::string foreign = temporary("foreign.log");
   std::ofstream(foreign) << "a text, not a log";
