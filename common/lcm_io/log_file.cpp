@@ -74,6 +74,11 @@ std::optional<LogEvent> LogReader::next() {
   return std::nullopt;
 }
 
+void LogReader::seek(std::int64_t position_bytes) {
+  std::fseek(file_->getFilePtr(), static_cast<long>(position_bytes), SEEK_SET);
+  position_bytes_ = position_bytes;
+}
+
 LogWriter::LogWriter(const std::string& path)
     : path_(path), log_(lcm_eventlog_create(path.c_str(), "w")) {
   if (log_ == nullptr)

@@ -27,6 +27,9 @@ class LogReader {
   /// The next message; nothing at the end. What is damaged is passed over.
   std::optional<LogEvent> next();
 
+  /// Goes to where a message begins: what position_bytes() told before it was read.
+  void seek(std::int64_t position_bytes);
+
   /// After the last message: bytes that follow it but hold no whole message (a torn log), else 0.
   std::int64_t torn_bytes() const { return torn_bytes_; }
   /// Bytes between messages so far that hold none.

@@ -44,9 +44,7 @@ std::optional<ViewFrame> FrameAssembler::next() {
   while (static_cast<int>(frames_.size()) > kGiveUp) {
     if (auto frame = take(frames_.begin())) return frame;
   }
-  int newer = static_cast<int>(frames_.size()) - 1;
-  for (auto place = frames_.begin(); place != frames_.end() && newer >= wait_frames_;
-       ++place, --newer) {
+  for (auto place = frames_.begin(); place != frames_.end(); ++place) {
     if (place->second.poses) return take(place);
   }
   return std::nullopt;

@@ -1,23 +1,25 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/segments_t.hpp>
-#include <limits>
+#include <map>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/bus.hpp"
-#include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
+#include "common/lcm_io/module_status_codec.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/segments_codec.hpp"
 #include "modules/viewer/frame_assembler.hpp"
+#include "modules/viewer/log_frames.hpp"
 #include "modules/viewer/picture_files.hpp"
 #include "modules/viewer/window.hpp"
 
@@ -27,13 +29,9 @@ namespace {
 using config::log;
 using config::LogLevel;
 
-/// Truth follows its frame in a replayed log; a recorded one may be some frames late.
-constexpr int kWaitInLogs = 4;
-
 struct Options {
   std::string log, png, video;
-  std::string point_cloud = "POINT_CLOUD", segments = "SEGMENTS", poses = "BODY_POSES";
-  std::string truth = "GROUND_TRUTH";
+  ViewChannels channels;
   int every = 1, max = 0;
   double rate_hz = 5.0;
 };
@@ -45,151 +43,173 @@ void declare(config::Section& section, Options& options) {
   section.add("max", options.max, "", "end after so many frames, 0 = all", {0, 1000000000});
   section.add("rate", options.rate_hz, "frames/s", "speed of the video, and of a log in a window",
               {0.1, 1000.0});
-  section.add("point-cloud-channel", options.point_cloud, "clouds to draw");
-  section.add("segments-channel", options.segments, "segments to draw");
-  section.add("poses-channel", options.poses, "poses to draw: BODY_POSES or TRACKED_POSES");
-  section.add("truth-channel", options.truth, "truth to draw");
+  section.add("point-cloud-channel", options.channels.point_cloud, "clouds to draw");
+  section.add("segments-channel", options.channels.segments, "segments to draw");
+  section.add("poses-channel", options.channels.poses,
+              "poses to draw: BODY_POSES or TRACKED_POSES");
+  section.add("truth-channel", options.channels.truth, "truth to draw");
+  section.add("status-channel", options.channels.status, "rates and latencies of the modules");
 }
 
-/// Draws frames and puts them where the user wants them.
+bool to_window(const Options& options) { return options.png.empty() && options.video.empty(); }
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder))
+    throw config::UsageError(folder + ": cannot be made; give a folder to --png");
+}
+
+/// Draws frames into files.
 class Output {
  public:
   explicit Output(const Options& options) : options_(options) {
     if (!options.png.empty()) make_folder(options.png);
     if (!options.video.empty())
       video_ = std::make_unique<SheetVideo>(options.video, options.rate_hz);
-    if (options.png.empty() && options.video.empty()) window_ = std::make_unique<Window>();
   }
 
-  void add(ViewFrame frame, std::size_t max_batch) {
-    if (frame.number % options_.every != 0 || done()) return;
-    ++num_frames_;
-    batch_.push_back(std::move(frame));
-    if (batch_.size() >= max_batch) flush();
-  }
-  /// Draws what is waiting, several frames side by side.
-  void flush() {
-    std::vector<DrawnFrame> drawn(batch_.size());
-    tbb::parallel_for(std::size_t{0}, batch_.size(), [&](std::size_t i) {
-      drawn[i] = draw_frame(batch_[i]);
+  /// Several frames side by side.
+  void write(const std::vector<ViewFrame>& frames) {
+    std::vector<DrawnFrame> drawn(frames.size());
+    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+      drawn[i] = draw_frame(frames[i]);
       if (!options_.png.empty()) write_pictures(options_.png, drawn[i]);
     });
-    for (const DrawnFrame& frame : drawn) {
+    for (const DrawnFrame& frame : drawn)
       if (video_) video_->write(frame);
-      if (window_)
-        window_->show(frame,
-                      options_.log.empty() ? 1 : static_cast<int>(1000.0 / options_.rate_hz));
-    }
-    batch_.clear();
   }
-  void poll() {
-    if (window_) window_->poll();
-  }
-  bool done() const {
-    return (options_.max > 0 && num_frames_ >= options_.max) || (window_ && window_->closed()) ||
-           lcm_io::stop_requested();
-  }
-  int num_frames() const { return num_frames_; }
-  bool has_window() const { return window_ != nullptr; }
 
  private:
-  static void make_folder(const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder))
-      throw config::UsageError(folder + ": cannot be made; give a folder to --png");
-  }
-
   Options options_;
   std::unique_ptr<SheetVideo> video_;
-  std::unique_ptr<Window> window_;
-  std::vector<ViewFrame> batch_;
-  int num_frames_ = 0;
 };
 
-/// Decodes a message of one of the channels into the assembler; false for other channels.
-bool take(const lcm_io::LogEvent& event, const Options& options, FrameAssembler& assembler) {
-  using lcm_io::decode;
-  if (event.channel == options.point_cloud) {
-    assembler.add(lcm_io::from_message(decode<point_cloud_t>(event.data)));
-  } else if (event.channel == options.segments) {
-    assembler.add(lcm_io::from_message(decode<segments_t>(event.data)));
-  } else if (event.channel == options.poses) {
-    assembler.add(lcm_io::from_message(decode<body_poses_t>(event.data)));
-  } else if (event.channel == options.truth) {
-    assembler.add_truth(lcm_io::from_message(decode<body_poses_t>(event.data)));
-  } else {
-    return false;
+/// The numbers of the frames that the user wants.
+std::vector<int> wanted_frames(const Options& options, int count) {
+  std::vector<int> numbers;
+  for (int i = 0; i < count; i += options.every)
+    if (options.max == 0 || static_cast<int>(numbers.size()) < options.max) numbers.push_back(i);
+  return numbers;
+}
+
+void write_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
+  Output output(options);
+  const std::size_t batch = std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t i = 0; i < numbers.size() && !lcm_io::stop_requested();) {
+    std::vector<ViewFrame> frames;
+    for (; i < numbers.size() && frames.size() < batch; ++i)
+      frames.push_back(log.frame(numbers[i]));
+    output.write(frames);
   }
-  return true;
+}
+
+/// Until the user ends it.
+void show_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
+  using Clock = std::chrono::steady_clock;
+  const auto period = std::chrono::duration<double>(1.0 / options.rate_hz);
+  Window window;
+  Playback playback(static_cast<int>(numbers.size()));
+  window.add_slider(static_cast<int>(numbers.size()), [&](int i) { playback.seek(i); });
+  int shown = -1;
+  Clock::time_point since;
+  while (!playback.ended() && !lcm_io::stop_requested()) {
+    if (playback.frame() != shown) {
+      shown = playback.frame();
+      window.show(draw_frame(log.frame(numbers[static_cast<std::size_t>(shown)])).sheet);
+      window.move_slider(shown);
+      since = Clock::now();
+    }
+    if (const auto command = window.poll()) playback.apply(*command);
+    if (Clock::now() - since >= period) playback.advance();
+  }
 }
 
 void view_log(const Options& options) {
-  lcm_io::LogReader reader(options.log);
-  Output output(options);
-  FrameAssembler assembler(kWaitInLogs);
-  const std::size_t batch =
-      output.has_window() ? 1 : std::max(1U, std::thread::hardware_concurrency());
-  int malformed = 0;
-  while (!output.done()) {
-    const auto event = reader.next();
-    if (!event) break;
-    try {
-      take(*event, options, assembler);
-    } catch (const lcm_io::MessageError& error) {
-      if (malformed++ == 0)
-        log(LogLevel::kWarning, event->channel + ": message dropped: " + error.what());
-    }
-    while (auto frame = assembler.next()) output.add(std::move(*frame), batch);
-  }
-  while (!output.done()) {
-    auto frame = assembler.next_at_end();
-    if (!frame) break;
-    output.add(std::move(*frame), batch);
-  }
-  output.flush();
-  if (malformed > 1) log(LogLevel::kWarning, std::to_string(malformed) + " messages dropped");
-  if (reader.torn_bytes() > 0)
+  LogFrames log_frames(options.log, options.channels);
+  const std::vector<int> numbers = wanted_frames(options, log_frames.count());
+  if (to_window(options) && !numbers.empty())
+    show_log(options, log_frames, numbers);
+  else
+    write_log(options, log_frames, numbers);
+  if (log_frames.num_malformed() > 1)
+    log(LogLevel::kWarning, std::to_string(log_frames.num_malformed()) + " messages dropped");
+  if (log_frames.torn_bytes() > 0)
     log(LogLevel::kWarning, options.log + ": is torn, its last " +
-                                std::to_string(reader.torn_bytes()) + " bytes were left out");
-  if (output.num_frames() == 0)
+                                std::to_string(log_frames.torn_bytes()) + " bytes were left out");
+  if (numbers.empty())
     log(LogLevel::kWarning,
         options.log + ": holds no clouds, segments or poses to draw; limbcast-replay adds them");
-  else
-    log(LogLevel::kInfo, std::to_string(output.num_frames()) + " frames drawn");
+  else if (!to_window(options))
+    log(LogLevel::kInfo, std::to_string(numbers.size()) + " frames drawn");
 }
 
-void view_live(const Options& options, const std::string& lcm_url) {
-  Output output(options);
-  FrameAssembler assembler(0);
-  lcm_io::wait_for_network(lcm_url);
-  lcm_io::Bus bus(lcm_url);
-  bus.set_on_malformed([](const std::string& channel, const std::string& reason) {
-    log(LogLevel::kWarning, channel + ": message dropped: " + reason);
-  });
-  // Sent frames are not skipped one channel at a time: their messages would no longer belong
-  // together.
-  bus.subscribe<point_cloud_t>(
-      options.point_cloud, lcm_io::Keep::kAll,
-      [&](const point_cloud_t& message) { assembler.add(lcm_io::from_message(message)); });
-  bus.subscribe<segments_t>(options.segments, lcm_io::Keep::kAll, [&](const segments_t& message) {
-    assembler.add(lcm_io::from_message(message));
-  });
-  bus.subscribe<body_poses_t>(options.poses, lcm_io::Keep::kAll, [&](const body_poses_t& message) {
-    assembler.add(lcm_io::from_message(message));
-  });
-  bus.subscribe<body_poses_t>(options.truth, lcm_io::Keep::kAll, [&](const body_poses_t& message) {
-    assembler.add_truth(lcm_io::from_message(message));
-  });
-  log(LogLevel::kInfo, "shows " + options.poses + " of " + lcm_io::effective_url(lcm_url));
-  while (!output.done()) {
-    // Take in all that has come before drawing, then draw the newest frame that is complete.
-    while (bus.handle(std::chrono::milliseconds(20))) {
+/// What comes over LCM, put together.
+class LiveFrames {
+ public:
+  LiveFrames(const ViewChannels& channels, const std::string& lcm_url) : bus_(lcm_url) {
+    bus_.set_on_malformed([](const std::string& channel, const std::string& reason) {
+      log(LogLevel::kWarning, channel + ": message dropped: " + reason);
+    });
+    take<point_cloud_t>(channels.point_cloud, [this](auto cloud) { assembler_.add(cloud); });
+    take<segments_t>(channels.segments, [this](auto segments) { assembler_.add(segments); });
+    take<body_poses_t>(channels.poses, [this](auto poses) { assembler_.add(poses); });
+    take<body_poses_t>(channels.truth, [this](auto truth) { assembler_.add_truth(truth); });
+    take<module_status_t>(channels.status, [this](const lcm_io::ModuleStatus& status) {
+      const ModuleFigures figures = figures_of(status);
+      modules_[figures.host + '\n' + figures.module] = figures;
+    });
+  }
+
+  /// The newest complete frame of what has come; nothing where none is new.
+  std::optional<ViewFrame> newest() {
+    while (bus_.handle(std::chrono::milliseconds(20))) {
     }
     std::optional<ViewFrame> newest;
-    while (auto frame = assembler.next()) newest = std::move(frame);
-    if (newest) output.add(std::move(*newest), 1);
-    output.poll();
+    while (auto frame = assembler_.next()) newest = std::move(frame);
+    if (newest)
+      for (const auto& [name, figures] : modules_) newest->modules.push_back(figures);
+    return newest;
+  }
+
+ private:
+  /// All of them: were they skipped one channel at a time, they would no longer belong together.
+  template <class Message, class Handler>
+  void take(const std::string& channel, Handler handler) {
+    bus_.subscribe<Message>(channel, lcm_io::Keep::kAll, [handler](const Message& message) {
+      handler(lcm_io::from_message(message));
+    });
+  }
+
+  lcm_io::Bus bus_;
+  FrameAssembler assembler_;
+  std::map<std::string, ModuleFigures> modules_;
+};
+
+void view_live(const Options& options, const std::string& lcm_url) {
+  std::unique_ptr<Window> window;
+  std::unique_ptr<Output> output;
+  if (to_window(options))
+    window = std::make_unique<Window>();
+  else
+    output = std::make_unique<Output>(options);
+  lcm_io::wait_for_network(lcm_url);
+  LiveFrames frames(options.channels, lcm_url);
+  log(LogLevel::kInfo, "shows " + options.channels.poses + " of " + lcm_io::effective_url(lcm_url));
+  int num_drawn = 0;
+  bool paused = false, step = false;
+  while (!lcm_io::stop_requested() && (options.max == 0 || num_drawn < options.max)) {
+    const auto frame = frames.newest();
+    if (frame && (!paused || step) && frame->number % options.every == 0) {
+      ++num_drawn;
+      step = false;
+      if (window) window->show(draw_frame(*frame).sheet);
+      if (output) output->write({*frame});
+    }
+    const auto command = window ? window->poll() : std::nullopt;
+    if (command == Command::kQuit) return;
+    if (command == Command::kPause) paused = !paused;
+    if (command == Command::kNext) paused = step = true;
   }
 }
 
@@ -199,8 +219,8 @@ void run(int argc, const char* const* argv) {
   declare(section, options);
   config::Parser parser(
       "limbcast-viewer",
-      "Draws clouds, segments and poses: pictures, a video, or a window (space: pause, s: "
-      "step, q: quit).");
+      "Draws clouds, segments and poses: pictures, a video, or a window (space: pause, s "
+      "and a: one frame on and back, q: quit; a slider over a log).");
   parser.add_positional("[LOG]", options.log,
                         "log made by limbcast-replay or lcm-logger; default: live");
   parser.add(section);

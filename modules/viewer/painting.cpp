@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
@@ -32,6 +33,8 @@ const cv::Scalar kLeftColor(255, 170, 40), kRightColor(20, 120, 255), kTrunkColo
 const cv::Scalar kRayColor(80, 255, 80), kTruthColor(255, 255, 255);
 /// How far a pointing ray is drawn beyond the wrist [m].
 constexpr float kRayLength = 1.5F;
+/// A ring that is wider says no more [rad].
+constexpr float kWidestSigma_rad = 0.8F;
 
 cv::Scalar link_color(Joint to) {
   if (index(to) < index(Joint::kShoulderLeft)) return kTrunkColor;
@@ -51,6 +54,22 @@ void draw_line(cv::Mat& canvas, const Viewpoint& view, const Eigen::Vector3f& fr
   if (from && to) cv::line(canvas, *from, *to, color, thickness, cv::LINE_AA);
 }
 
+/// Where the ray ends with the direction off by one standard deviation: a ring around its end.
+void draw_uncertainty(cv::Mat& canvas, const Viewpoint& view, const Eigen::Vector3f& end_m,
+                      const Eigen::Vector3f& ray_m, float sigma_rad, const cv::Scalar& color) {
+  constexpr int kCorners = 24;
+  constexpr float kFullTurn = 6.2831853F;
+  const Eigen::Vector3f across = ray_m.unitOrthogonal(), along = ray_m.normalized();
+  std::vector<cv::Point> ring;
+  for (int i = 0; i < kCorners; ++i) {
+    const Eigen::AngleAxisf turn(kFullTurn * static_cast<float>(i) / kCorners, along);
+    const auto pixel = view.project(end_m + turn * across * ray_m.norm() * std::tan(sigma_rad));
+    if (!pixel) return;
+    ring.emplace_back(*pixel);
+  }
+  cv::polylines(canvas, ring, true, color, 1, cv::LINE_AA);
+}
+
 void draw_ray(cv::Mat& canvas, const Viewpoint& view, const BodyPose& person, const Pointing& arm,
               const cv::Scalar& color, int thickness) {
   const JointEstimate& shoulder = person[on_side(Joint::kShoulderLeft, arm.side)];
@@ -64,6 +83,9 @@ void draw_ray(cv::Mat& canvas, const Viewpoint& view, const BodyPose& person, co
     const auto begin = view.project(from.position_m), end = view.project(end_m);
     if (!begin || !end) continue;
     cv::arrowedLine(canvas, *begin, *end, color, thickness, cv::LINE_AA, 0, 0.05);
+    if (arm.sigma_rad > 0.0F)
+      draw_uncertainty(canvas, view, end_m, length_m * arm.direction,
+                       std::min(arm.sigma_rad, kWidestSigma_rad), color);
     return;
   }
 }

@@ -35,16 +35,37 @@ const char* source_name(GravitySource source) {
   return "";
 }
 
+/// Nothing where it is not told.
+std::string degrees(float sigma_rad) {
+  constexpr double kDegrees = 57.29577951;
+  return sigma_rad > 0.0F ? formatted(" +-%.1f deg", kDegrees * static_cast<double>(sigma_rad))
+                          : "";
+}
+
+void append_modules(const std::vector<ModuleFigures>& modules, std::vector<std::string>& lines) {
+  // The age of a recording that is played says when it was made, not how fast the module is.
+  constexpr double kOldestLive_ms = 60'000.0;
+  for (const ModuleFigures& figures : modules) {
+    std::string line = formatted("%.20s on %.16s: %.1f/s", figures.module.c_str(),
+                                 figures.host.c_str(), figures.rate_out_hz);
+    if (figures.latency_p50_ms && *figures.latency_p50_ms < kOldestLive_ms)
+      line += formatted(", latency %.0f ms", *figures.latency_p50_ms);
+    lines.push_back(line);
+  }
+}
+
 void append_person(const BodyPose& person, std::vector<std::string>& lines) {
   lines.push_back(formatted("person %d: error %.3f, confidence %.2f", person.id,
                             static_cast<double>(person.error),
                             static_cast<double>(person.confidence)));
-  for (const Pointing& arm : person.pointing)
-    lines.push_back(
-        formatted("  points, %s arm (%.2f %.2f %.2f), confidence %.2f",
-                  arm.side == Side::kLeft ? "left" : "right",
-                  static_cast<double>(arm.direction.x()), static_cast<double>(arm.direction.y()),
-                  static_cast<double>(arm.direction.z()), static_cast<double>(arm.confidence)));
+  for (const Pointing& arm : person.pointing) {
+    lines.push_back(formatted("  points, %s arm%s, confidence %.2f",
+                              arm.side == Side::kLeft ? "left" : "right",
+                              degrees(arm.sigma_rad).c_str(), static_cast<double>(arm.confidence)));
+    lines.push_back(formatted("    to (%.2f %.2f %.2f)", static_cast<double>(arm.direction.x()),
+                              static_cast<double>(arm.direction.y()),
+                              static_cast<double>(arm.direction.z())));
+  }
 }
 
 std::vector<std::string> words(const ViewFrame& frame) {
@@ -52,6 +73,7 @@ std::vector<std::string> words(const ViewFrame& frame) {
       formatted("frame %d of sensor %.40s", frame.number, frame.stamp.sensor.c_str()),
       formatted("utime %lld", static_cast<long long>(frame.stamp.utime)),
       formatted("gravity: %s", source_name(frame.stamp.gravity.source))};
+  append_modules(frame.modules, lines);
   if (frame.segments) {
     int valid = 0;
     for (const Segment& segment : frame.segments->segments) valid += segment.valid() ? 1 : 0;
@@ -60,15 +82,16 @@ std::vector<std::string> words(const ViewFrame& frame) {
   }
   if (frame.truth)
     lines.push_back(formatted("%d people in truth", static_cast<int>(frame.truth->persons.size())));
-  if (!frame.poses) return lines;
-  lines.push_back(formatted("%d people found", static_cast<int>(frame.poses->persons.size())));
-  for (const BodyPose& person : frame.poses->persons) append_person(person, lines);
+  if (frame.poses) {
+    lines.push_back(formatted("%d people found", static_cast<int>(frame.poses->persons.size())));
+    for (const BodyPose& person : frame.poses->persons) append_person(person, lines);
+  }
   if (static_cast<int>(lines.size()) > kMaxLines) lines.resize(kMaxLines);
   return lines;
 }
 
 /// The picture scaled into the cell without changing its shape.
-void place(const cv::Mat& picture, cv::Mat cell) {
+void place(const cv::Mat& picture, const cv::Mat& cell) {
   const double scale = std::min(static_cast<double>(cell.cols) / picture.cols,
                                 static_cast<double>(cell.rows) / picture.rows);
   const cv::Size size(cvRound(picture.cols * scale), cvRound(picture.rows * scale));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/viewer/scene.hpp"
 
@@ -43,6 +44,20 @@ TEST(Pictures, DrawTheRayBeyondTheHand) {
   ViewFrame frame = whole_frame();
   frame.poses->persons[0].pointing.clear();
   EXPECT_EQ(pixel(draw_skeleton(frame), 40, 60), kWall);
+}
+
+TEST(Pictures, DrawARingAsWideAsTheRayIsUncertain) {
+  ViewFrame frame = whole_frame();
+  // 2.5 m of ray, 0.2 rad: a radius of 0.51 m, seen from the sensor as an upright line at the end.
+  const auto ring_px = [&frame](float sigma_rad) {
+    frame.poses->persons[0].pointing[0].sigma_rad = sigma_rad;
+    cv::Mat1b green;
+    cv::inRange(draw_skeleton(frame), cv::Scalar(40, 150, 40), cv::Scalar(95, 255, 95), green);
+    return cv::boundingRect(green).height;
+  };
+  EXPECT_LT(ring_px(0.0F), 15);
+  // 120 px focal length, 3 m away: 2 x 0.51 m are 41 px.
+  EXPECT_NEAR(ring_px(0.2F), 41, 4);
 }
 
 TEST(Pictures, LeaveOutJointsThatAreNotValid) {

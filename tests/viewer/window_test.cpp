@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
+#include "tests/support/virtual_display.hpp"
+#include "tests/viewer/scene.hpp"
+
+namespace limbcast::viewer {
+namespace {
+
+/// A log whose frames differ in the brightness of the wall that they show.
+constexpr int kFrames = 30;
+std::uint8_t brightness(int frame) { return static_cast<std::uint8_t>(20 + 7 * frame); }
+
+const cv::Size kSize(960, 420);
+
+class ViewerWindow : public ::testing::Test {
+ protected:
+  ViewerWindow() {
+    if (!test::VirtualDisplay::available()) return;
+    display_ = std::make_unique<test::VirtualDisplay>();
+    write_log();
+    // So slow that a frame changes by what the test does alone.
+    viewer_ = std::make_unique<test::ChildProcess>(
+        std::vector<std::string>{test::program("limbcast-viewer"), folder_ + "/out.log", "--rate",
+                                 "0.1"},
+        folder_ + "/viewer.txt", std::vector<std::string>{display_->variable()});
+    window_ = display_->window("limbcast", *viewer_);
+  }
+  void SetUp() override {
+    if (!display_) GTEST_SKIP() << "Xvfb, xdotool or ImageMagick is missing";
+    ASSERT_FALSE(window_.empty()) << viewer_->output();
+    display_->show(window_, kSize);
+  }
+  void write_log() const {
+    lcm_io::LogWriter log(folder_ + "/out.log");
+    for (int i = 0; i < kFrames; ++i) {
+      Cloud cloud = wall(i + 1);
+      cloud.colors.assign(cloud.points_m.size(), Bgr{brightness(i), brightness(i), brightness(i)});
+      log.write(i, "POINT_CLOUD", lcm_io::to_message(cloud));
+      log.write(i, "BODY_POSES", lcm_io::to_message(pointing_arm(i + 1)));
+    }
+    log.close();
+  }
+  /// Waits until the window shows the frame; false where the viewer ended.
+  bool shows(int frame) {
+    while (viewer_->running()) {
+      // Within the first picture of the sheet: the wall alone.
+      const cv::Mat screen = display_->screenshot();
+      const cv::Rect part(kSize.width / 16, kSize.height / 4, 20, 20);
+      if (std::abs(cv::mean(screen(part))[0] - brightness(frame)) < 2.0) return true;
+    }
+    return false;
+  }
+  bool shows_after(const std::string& key, int frame) {
+    display_->press(window_, key);
+    return shows(frame);
+  }
+
+  const std::string folder_ = test::temporary_folder("viewer_window");
+  std::unique_ptr<test::VirtualDisplay> display_;
+  std::unique_ptr<test::ChildProcess> viewer_;
+  std::string window_;
+};
+
+TEST_F(ViewerWindow, StepsAndJumpsThroughALogByKeys) {
+  ASSERT_TRUE(shows(0)) << viewer_->output();
+  EXPECT_TRUE(shows_after("s", 1));
+  EXPECT_TRUE(shows_after("Right", 2));
+  EXPECT_TRUE(shows_after("Left", 1));
+  EXPECT_TRUE(shows_after("a", 0));
+  EXPECT_TRUE(shows_after("Next", 10));
+  EXPECT_TRUE(shows_after("Prior", 0));
+  EXPECT_TRUE(shows_after("End", kFrames - 1));
+  EXPECT_TRUE(shows_after("Home", 0));
+  display_->press(window_, "q");
+  EXPECT_EQ(viewer_->wait(), 0) << viewer_->output();
+}
+
+}  // namespace
+}  // namespace limbcast::viewer
