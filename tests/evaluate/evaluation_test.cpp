@@ -113,6 +113,17 @@ TEST(Evaluate, CountsPeopleInventedAndReportedTwice) {
   EXPECT_EQ(tally.invented_in_empty_frames, 0);
 }
 
+TEST(Evaluate, TellsWhatWasInventedAndTwice) {
+  const Tally tally = tally_of({standing_figure()},
+                               {standing_figure(), standing_figure(0.1F), standing_figure(2.0F)});
+  ASSERT_EQ(tally.findings.size(), 2U);
+  EXPECT_EQ(tally.findings[0].what, "reported twice");
+  EXPECT_EQ(tally.findings[0].report, 1);
+  EXPECT_EQ(tally.findings[1].what, "invented");
+  EXPECT_EQ(tally.findings[1].report, 2);
+  EXPECT_EQ(tally.findings[1].truth, -1);
+}
+
 TEST(Evaluate, CountsPosesInFramesWithoutPeople) {
   const Tally tally = tally_of({}, {standing_figure()});
   EXPECT_EQ(tally.empty_frames, 1);
@@ -184,6 +195,25 @@ TEST(SurelyNotPointing, TakesTheHipsWhereALabelHasNoPelvis) {
   EXPECT_TRUE(surely_not_pointing(truth));
   truth[Joint::kHipLeft].valid = false;
   EXPECT_FALSE(surely_not_pointing(truth));
+}
+
+TEST(SurelyNotPointing, NeedsATrunkOrBentElbows) {
+  BodyPose truth = resting_figure();
+  truth[Joint::kPelvis].valid = false;
+  truth[Joint::kHipRight].valid = false;
+  EXPECT_FALSE(surely_not_pointing(truth));
+  truth = resting_figure();
+  truth[Joint::kNeck].valid = false;
+  EXPECT_FALSE(surely_not_pointing(truth));
+}
+
+TEST(SurelyNotPointing, NeedsEveryJointOfTheArms) {
+  for (const Joint joint : {Joint::kShoulderLeft, Joint::kElbowLeft, Joint::kWristRight}) {
+    BodyPose truth = resting_figure();
+    // What a joint that is not known is filled with must not count.
+    truth[joint] = {};
+    EXPECT_FALSE(surely_not_pointing(truth)) << kJointNames[index(joint)];
+  }
 }
 
 TEST(SurelyNotPointing, NeedsBothArms) {

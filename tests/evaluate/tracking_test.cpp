@@ -78,6 +78,7 @@ TEST(EvaluateTracking, TellsByHowManyFramesMovingJointsLag) {
   }
   const TrackingTally tally = recording.tally();
   EXPECT_NEAR(value_of(tally, "lag_median_frames"), 0.3, 1e-4);
+  EXPECT_NEAR(value_of(tally, "lag_p90_frames"), 0.3, 1e-4);
   EXPECT_TRUE(tally.untracked_joints_mm.empty()) << "nothing rests";
 }
 
@@ -90,6 +91,69 @@ TEST(EvaluateTracking, ComparesDirectionsOfRestingArms) {
   const TrackingTally tally = recording.tally();
   EXPECT_NEAR(value_of(tally, "pointing_jitter_rms_untracked_degrees"), 3.0, 0.02);
   EXPECT_NEAR(value_of(tally, "pointing_jitter_rms_left"), 50.0, 0.5);
+}
+
+TEST(EvaluateTracking, TellsTheLongerLagsToo) {
+  Recording recording;
+  for (int i = 0; i < 12; ++i) {
+    const float x_m = 0.1F * static_cast<float>(i);
+    const float lag_m = i == 5 || i == 6 ? 0.1F : 0.02F;
+    recording.add(standing_figure(x_m), standing_figure(x_m), standing_figure(x_m - lag_m));
+  }
+  const TrackingTally tally = recording.tally();
+  EXPECT_NEAR(value_of(tally, "lag_median_frames"), 0.2, 1e-4);
+  EXPECT_NEAR(value_of(tally, "lag_p90_frames"), 1.0, 1e-4);
+}
+
+TEST(EvaluateTracking, LeavesOutFramesInWhichOneOfBothIsMissing) {
+  Recording recording;
+  for (int i = 0; i < 12; ++i) {
+    const float x_m = 0.1F * static_cast<float>(i);
+    recording.add(standing_figure(x_m), standing_figure(x_m), standing_figure(x_m - 0.03F));
+  }
+  recording.untracked[4].persons.clear();
+  recording.tracked[7].persons.clear();
+  const TrackingTally tally = recording.tally();
+  EXPECT_EQ(tally.followed, 11);
+  ASSERT_FALSE(tally.lags_frames.empty());
+  EXPECT_EQ(tally.lags_frames[0].size(), 8U) << "12 frames without the ends and the two";
+  EXPECT_NEAR(value_of(tally, "lag_median_frames"), 0.3, 1e-4);
+}
+
+TEST(EvaluateTracking, LeavesOutRestingFramesInWhichOneOfBothIsMissing) {
+  Recording recording;
+  for (int i = 0; i < 12; ++i)
+    recording.add(standing_figure(), standing_figure(0.02F), standing_figure(0.01F));
+  recording.untracked[4].persons.clear();
+  recording.tracked[7].persons.clear();
+  const TrackingTally tally = recording.tally();
+  ASSERT_FALSE(tally.tracked_joints_mm.empty());
+  EXPECT_EQ(tally.tracked_joints_mm[0].size(), 10U);
+  EXPECT_EQ(tally.untracked_joints_mm[0].size(), 10U);
+}
+
+TEST(EvaluateTracking, HasNoShareOfAJitterThatWasNotThere) {
+  Recording recording;
+  for (int i = 0; i < 10; ++i)
+    recording.add(standing_figure(), standing_figure(), standing_figure());
+  EXPECT_EQ(value_of(recording.tally(), "jitter_rms_untracked_mm"), 0.0);
+  EXPECT_TRUE(std::isnan(value_of(recording.tally(), "jitter_rms_left")));
+}
+
+TEST(EvaluateTracking, KnowsTruePersonsByTheirNumbersWhateverTheirOrder) {
+  Recording recording;
+  for (int i = 0; i < 4; ++i) {
+    const BodyPose left = numbered(standing_figure(-1.0F), 1);
+    const BodyPose right = numbered(standing_figure(1.0F), 2);
+    const std::vector<BodyPose> persons =
+        i % 2 == 0 ? std::vector<BodyPose>{left, right} : std::vector<BodyPose>{right, left};
+    recording.truth.push_back({at(i, persons), {}});
+    recording.untracked.push_back(at(i, persons));
+    recording.tracked.push_back(at(i, persons));
+  }
+  EXPECT_EQ(recording.tally().followed, 8);
+  EXPECT_EQ(recording.tally().identity_switches, 0);
+  EXPECT_EQ(recording.tally().tracked_joints_mm.size(), 0U) << "4 frames are too few to rest";
 }
 
 TEST(EvaluateTracking, TakesRecordingsInWhichNobodyIsFollowed) {
