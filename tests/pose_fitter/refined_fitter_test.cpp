@@ -212,6 +212,92 @@ TEST(RefinedCost, HasTheGradientOfItsDifferences) {
   }
 }
 
+/// The cost of what is known of bodies without looking, for a body before a level floor of unknown
+/// height: each test changes what one term minds and nothing, or the same, for the others.
+class PriorTerms : public ::testing::Test {
+ protected:
+  double cost_of(const BodyState& body) const {
+    refined::NormalEquations equations;
+    equations.clear(false);
+    add_prior_terms(body, make_cones_of(body), *observation_, refined::kAllParts, RefinedParams{},
+                    equations);
+    return equations.cost;
+  }
+  /// Moves all points about the head.
+  BodyState about_head(const Eigen::Matrix3d& change) const {
+    BodyState body = body_;
+    const Eigen::Vector3d head = body.points[refined::kHead];
+    for (auto& point : body.points) point = head + change * (point - head);
+    return body;
+  }
+  BodyState with_forearms_longer(double left_m, double right_m) const {
+    BodyState body = body_;
+    for (const int side : {0, 1}) {
+      const Eigen::Vector3d way =
+          (body.points[refined::kWrist + side] - body.points[refined::kElbow + side]).normalized();
+      body.points[refined::kWrist + side] += (side == 0 ? left_m : right_m) * way;
+    }
+    return body;
+  }
+
+  const BodyState body_ = testing::standing_body(2.5, 0.0);
+  std::optional<refined::Observation> observation_ = [this] {
+    auto observation = refined::observe(testing::seen(body_), testing::stamp(), RefinedParams{});
+    observation->floor_m.reset();
+    return observation;
+  }();
+};
+
+TEST_F(PriorTerms, MindABodyThatLeans) {
+  const Eigen::AngleAxisd lean(20.0 * kDegree, Eigen::Vector3d::UnitZ());
+  BodyState leaning = about_head(lean.toRotationMatrix());
+  leaning.rotation = lean * leaning.rotation;
+  EXPECT_GT(cost_of(leaning) - cost_of(body_), 3.0);
+}
+
+TEST_F(PriorTerms, MindAGiant) {
+  BodyState giant = about_head(1.4 * Eigen::Matrix3d::Identity());
+  giant.log_stature += std::log(1.4);
+  EXPECT_GT(cost_of(giant) - cost_of(body_), 3.0);
+}
+
+TEST_F(PriorTerms, MindABodyThatIsNotAtItsHead) {
+  BodyState moved_body = body_;
+  for (auto& point : moved_body.points) point.x() += 0.1;
+  EXPECT_GT(cost_of(moved_body) - cost_of(body_), 1.5);
+}
+
+TEST_F(PriorTerms, MindArmsOfUnequalLength) {
+  EXPECT_GT(cost_of(with_forearms_longer(0.03, -0.03)) - cost_of(with_forearms_longer(0.03, 0.03)),
+            30.0);
+}
+
+TEST_F(PriorTerms, MindAKneeBentBackwards) {
+  const auto bent = [&](double ahead_m) {
+    BodyState body = body_;
+    body.points[refined::kKnee] += ahead_m * body.front();
+    return body;
+  };
+  EXPECT_GT(cost_of(bent(-0.08)) - cost_of(bent(0.08)), 3.0);
+}
+
+TEST_F(PriorTerms, MindAPelvisBesideTheTrunk) {
+  BodyState body = body_;
+  body.points[refined::kPelvis].x() += 0.1;
+  EXPECT_GT(cost_of(body) - cost_of(body_), 100.0);
+}
+
+TEST_F(PriorTerms, MindForearmsThatGoThroughEachOther) {
+  // Both arms reach ahead and across; raised and lowered, they pass one over the other.
+  const auto crossing = [&](double raised) {
+    BodyState body = body_;
+    testing::point_with(body, 0, {-0.45, raised, -1.0});
+    testing::point_with(body, 1, {0.45, -raised, -1.0});
+    return cost_of(body);
+  };
+  EXPECT_GT(crossing(0.0) - crossing(0.2), 4.0);
+}
+
 /// Marks what is seen of the person within a hand's length of `center_m` as skin-coloured.
 void paint_skin(Segment& segment, const Eigen::Vector3d& center_m) {
   constexpr float kHandM = 0.08F;
