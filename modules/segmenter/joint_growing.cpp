@@ -68,13 +68,35 @@ JointGrowth::JointGrowth(const Lattice& lattice, std::vector<HeadCandidate> head
 std::vector<std::int16_t> JointGrowth::drop(std::int16_t head) {
   changed_.assign(heads_.size(), false);
   dropped_[static_cast<std::size_t>(head)] = true;
-  queue_around(free_points(head));
+  last_dropped_ = head;
+  changes_.clear();
+  bridges_before_ = bridges_.size();
+  dropping_ = true;
+  free_points(head);
+  queue_around_freed();
   grow();
+  dropping_ = false;
   std::vector<std::int16_t> changed;
   for (std::size_t k = 0; k < heads_.size(); ++k) {
     if (changed_[k] && !dropped_[k]) changed.push_back(static_cast<std::int16_t>(k));
   }
   return changed;
+}
+
+void JointGrowth::undo_drop() {
+  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) {
+    labels_[change->point] = change->label;
+    way_m_[change->point] = change->way_m;
+  }
+  changes_.clear();
+  bridges_.resize(bridges_before_);
+  dropped_[static_cast<std::size_t>(last_dropped_)] = false;
+}
+
+void JointGrowth::set(std::uint32_t i, std::int16_t label, float way_m) {
+  if (dropping_) changes_.push_back({i, labels_[i], way_m_[i]});
+  labels_[i] = label;
+  way_m_[i] = way_m;
 }
 
 void JointGrowth::grow_without(const std::vector<std::uint32_t>& points) {
@@ -86,20 +108,18 @@ void JointGrowth::grow_without(const std::vector<std::uint32_t>& points) {
   grow();
 }
 
-std::vector<std::uint32_t> JointGrowth::free_points(std::int16_t head) {
-  std::vector<std::uint32_t> freed;
+void JointGrowth::free_points(std::int16_t head) {
+  freed_.clear();
   for (std::uint32_t i = 0; i < labels_.size(); ++i) {
     if (labels_[i] != head) continue;
-    labels_[i] = kNobody;
-    way_m_[i] = kNoWay_m;
-    freed.push_back(i);
+    set(i, kNobody, kNoWay_m);
+    freed_.push_back(i);
   }
-  return freed;
 }
 
 /// Puts every point that may lead to a free one into the queue again.
-void JointGrowth::queue_around(const std::vector<std::uint32_t>& freed) {
-  for (const std::uint32_t i : freed) {
+void JointGrowth::queue_around_freed() {
+  for (const std::uint32_t i : freed_) {
     const int u = static_cast<int>(i) % lattice_->width, v = static_cast<int>(i) / lattice_->width;
     for (const auto& [du, dv] : kNeighbors) {
       const auto n = lattice_->find(u + du, v + dv);
@@ -124,8 +144,7 @@ void JointGrowth::start(std::int16_t head) {
       if (!i || way_m_[*i] == 0.0F || (!forbidden_.empty() && forbidden_[*i] != 0)) continue;
       if ((lattice_->level_m[*i] - candidate.center_m).squaredNorm() > radius_m * radius_m)
         continue;
-      way_m_[*i] = 0.0F;
-      labels_[*i] = head;
+      set(*i, head, 0.0F);
       changed_[static_cast<std::size_t>(head)] = true;
       queue(*i);
     }
@@ -219,8 +238,7 @@ void JointGrowth::relax(std::uint32_t from, std::uint32_t to, float way_m) {
   if (way_m >= way_m_[to] - kSameWay_m || way_m > params_.max_way_m ||
       !reachable(lattice_->level_m[to], labels_[from]))
     return;
-  way_m_[to] = way_m;
-  labels_[to] = labels_[from];
+  set(to, labels_[from], way_m);
   changed_[static_cast<std::size_t>(labels_[to])] = true;
   queue(to);
 }

@@ -25,6 +25,10 @@ class JointGrowth {
   /// Gives the points of one head to the others, as if it had never been there. Returns the heads
   /// whose clusters, or what lies beside them, changed.
   std::vector<std::int16_t> drop(std::int16_t head);
+  /// The points that the head dropped last had.
+  const std::vector<std::uint32_t>& freed() const { return freed_; }
+  /// Takes the last drop back, if nothing was changed since.
+  void undo_drop();
 
   /// Grows again without some points: what turned out to be no part of a body.
   void grow_without(const std::vector<std::uint32_t>& points);
@@ -39,6 +43,12 @@ class JointGrowth {
   struct Bridge {
     std::uint32_t from, to;
   };
+  /// What a point was before it changed.
+  struct Change {
+    std::uint32_t point;
+    std::int16_t label;
+    float way_m;
+  };
 
   void start(std::int16_t head);
   void grow();
@@ -50,8 +60,9 @@ class JointGrowth {
   void relax(std::uint32_t from, std::uint32_t to, float way_m);
   void queue(std::uint32_t i);
   bool reachable(const Eigen::Vector3f& point_m, std::int16_t head) const;
-  std::vector<std::uint32_t> free_points(std::int16_t head);
-  void queue_around(const std::vector<std::uint32_t>& freed);
+  void set(std::uint32_t i, std::int16_t label, float way_m);
+  void free_points(std::int16_t head);
+  void queue_around_freed();
 
   const Lattice* lattice_;
   std::vector<HeadCandidate> heads_;
@@ -64,6 +75,12 @@ class JointGrowth {
   std::vector<std::vector<std::uint32_t>> buckets_;
   std::size_t bucket_ = 0;  ///< the one that is being walked
   std::vector<Bridge> bridges_;
+  // Of the last drop: what it changed, so that it can be taken back.
+  bool dropping_ = false;
+  std::int16_t last_dropped_ = kNobody;
+  std::vector<std::uint32_t> freed_;
+  std::vector<Change> changes_;
+  std::size_t bridges_before_ = 0;
   std::optional<Surfaces> surfaces_;  ///< made when the first bridge is looked for
 };
 

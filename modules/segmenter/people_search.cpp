@@ -34,21 +34,24 @@ class Trial {
   /// one that looks more like a head makes about as likely a person alone as both do. Nothing where
   /// no two are one person's.
   std::optional<RejectedHead> drop_rival() {
-    std::optional<Trial> best;
-    std::optional<RejectedHead> rival;
+    std::optional<std::pair<std::size_t, std::size_t>> best;
     float best_gain = -params_->classifier.rival_odds;
     for (const auto& [head, other] : rivals()) {
-      Trial without = *this;
-      const float taken = without.give(other, head);
-      const float gain = without.value(head) - value(head) - value(other);
+      const std::vector<Verdict> before = verdicts_;
+      const float value_before = value(head) + value(other);
+      const float taken = give(other, head);
+      const float gain = value(head) - value_before;
+      growth_.undo_drop();
+      verdicts_ = before;
       if (taken <= kSamePersonShare || gain <= best_gain) continue;
       best_gain = gain;
-      rival = RejectedHead{growth_.heads()[other],
-                           {SegmentFilter::kSamePerson, taken, kSamePersonShare}};
-      best = std::move(without);
+      best = {head, other};
     }
-    if (best) *this = std::move(*best);
-    return rival;
+    if (!best) return std::nullopt;
+    const auto [head, other] = *best;
+    const float taken = give(other, head);
+    return RejectedHead{growth_.heads()[other],
+                        {SegmentFilter::kSamePerson, taken, kSamePersonShare}};
   }
 
   /// Gives up the least likely head that is no person's; nothing where all are.
@@ -112,15 +115,12 @@ class Trial {
 
   /// Drops `from` and returns the share of its points that `to` took over.
   float give(std::size_t from, std::size_t to) {
-    const std::vector<std::int16_t> before = growth_.labels();
     for (const std::int16_t k : growth_.drop(static_cast<std::int16_t>(from))) judge(k);
-    int all = 0, taken = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      if (before[i] != static_cast<std::int16_t>(from)) continue;
-      ++all;
-      taken += growth_.labels()[i] == static_cast<std::int16_t>(to) ? 1 : 0;
-    }
-    return all > 0 ? static_cast<float>(taken) / static_cast<float>(all) : 0.0F;
+    const std::vector<std::uint32_t>& freed = growth_.freed();
+    const auto taken = std::count_if(freed.begin(), freed.end(), [&](std::uint32_t i) {
+      return growth_.labels()[i] == static_cast<std::int16_t>(to);
+    });
+    return freed.empty() ? 0.0F : static_cast<float>(taken) / static_cast<float>(freed.size());
   }
 
   void judge(std::int16_t k) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tests/segmenter/drawn_scene.hpp"
@@ -75,6 +76,33 @@ TEST(JointGrowth, DroppedHeadLeavesWhatGrowsWithoutIt) {
   EXPECT_EQ(growth.drop(1), std::vector<std::int16_t>{0});
 
   EXPECT_EQ(growth.labels(), labels_of(lattice, {heads[0]}));
+}
+
+TEST(JointGrowth, TakesADropBack) {
+  const Lattice lattice = look_at(board_behind_bar);
+  JointGrowth growth(lattice, {head_at(lattice, 0.0F, 0.8F), head_at(lattice, 0.1F, -0.2F)}, {},
+                     {});
+  const std::vector<std::int16_t> before = growth.labels();
+  growth.drop(1);
+  ASSERT_NE(growth.labels(), before);
+
+  growth.undo_drop();
+
+  EXPECT_EQ(growth.labels(), before);
+  EXPECT_FALSE(growth.dropped(1));
+  growth.drop(1);
+  EXPECT_EQ(growth.labels(), labels_of(lattice, {head_at(lattice, 0.0F, 0.8F)}));
+}
+
+TEST(JointGrowth, TellsThePointsThatADropFreed) {
+  const Lattice lattice = look_at(board_behind_bar);
+  JointGrowth growth(lattice, {head_at(lattice, 0.0F, 0.8F), head_at(lattice, 0.1F, -0.2F)}, {},
+                     {});
+  const auto had = std::count(growth.labels().begin(), growth.labels().end(), 1);
+
+  growth.drop(1);
+
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(growth.freed().size()), had);
 }
 
 TEST(JointGrowth, DroppedHeadLeavesClustersOutOfItsReachAlone) {
