@@ -75,6 +75,25 @@ TEST(PoseLines, AreReadBackAsTheyWereWritten) {
   ASSERT_EQ(person.pointing.size(), 1U);
   EXPECT_EQ(person.pointing[0].side, Side::kRight);
   EXPECT_NEAR(person.pointing[0].sigma_rad, 0.0349066F, 1e-6F);
+  const Pointing arm = one_person().persons[0].pointing[0];
+  EXPECT_TRUE(person.pointing[0].direction.isApprox(arm.direction, 1e-4F));
+  EXPECT_TRUE(person.pointing[0].forearm.isApprox(arm.forearm, 1e-4F));
+  EXPECT_TRUE(person.pointing[0].head_hand.isApprox(arm.head_hand, 1e-4F));
+  EXPECT_NEAR(person.pointing[0].confidence, arm.confidence, 1e-4F);
+  EXPECT_NEAR(person.confidence, one_person().persons[0].confidence, 1e-4F);
+  EXPECT_NEAR(person.error, one_person().persons[0].error, 1e-4F);
+}
+
+TEST(PoseLines, NeedOnlySideAndDirectionOfAnArm) {
+  const BodyPoses poses = from_line(
+      R"({"utime":5,"persons":[{"joints":{},"pointing":{"side":"left","direction":[0,0,-1],
+          "forearm":null,"head_hand":null,"confidence":null}}]})",
+      "here");
+  const Pointing& arm = poses.persons.at(0).pointing.at(0);
+  EXPECT_EQ(arm.side, Side::kLeft);
+  EXPECT_TRUE(arm.forearm.isZero());
+  EXPECT_TRUE(arm.head_hand.isZero());
+  EXPECT_EQ(arm.confidence, 0.0F);
 }
 
 TEST(PoseLines, OfTheBareFormAreReadToo) {
@@ -98,6 +117,10 @@ TEST(PoseLines, ThatAreWrongAreNamedByFileLineAndField) {
               HasSubstr("'head' is not finite"));
   EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{},"pointing":{"side":"up"}}]})"),
               HasSubstr("'side' must be"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{},"joint_sigma":3}]})"),
+              HasSubstr("'joint_sigma' must be"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{"head":[0,0,1,2]}}]})"),
+              HasSubstr("'head' must be three numbers"));
   EXPECT_THAT(
       error_of(
           R"({"utime":1,"persons":[{"joints":{},"pointing":{"side":"left","direction":[0,0,0]}}]})"),
@@ -112,7 +135,8 @@ TEST(PoseLines, AreCountedWithEmptyLines) {
 }
 
 TEST(PoseLines, OfAMissingFileAreAnError) {
-  EXPECT_THROW(read_file("/no/such/file.jsonl"), InputError);
+  EXPECT_THAT([] { read_file("/no/such/file.jsonl"); },
+              testing::ThrowsMessage<InputError>(HasSubstr("/no/such/file.jsonl: cannot be read")));
 }
 
 }  // namespace
