@@ -1,21 +1,13 @@
 #include "common/pose_json/pose_text.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "common/formatted.hpp"
 
 namespace limbcast::pose_json {
 namespace {
 
 constexpr float kDegrees = 57.2957795F;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  const int size = std::snprintf(nullptr, 0, format, values...);
-  std::string text(static_cast<std::size_t>(size) + 1, '\0');
-  std::snprintf(text.data(), text.size(), format, values...);
-  text.resize(static_cast<std::size_t>(size));
-  return text;
-}
 
 std::string vector_text(const Eigen::Vector3f& vector) {
   return formatted("(%.2f, %.2f, %.2f)", vector.x(), vector.y(), vector.z());

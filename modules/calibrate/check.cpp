@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "common/formatted.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
-#include "modules/calibrate/text.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
@@ -119,18 +119,19 @@ void CalibrationCheck::add_features(const GreyPair& pair) {
 
 std::vector<std::string> CalibrationCheck::faults() const {
   if (static_cast<int>(result_.row_differences_px.size()) < params_.min_points)
-    return {text("only %zu matched points, %d are needed: show a board or a scene with texture",
-                 result_.row_differences_px.size(), params_.min_points)};
+    return {
+        formatted("only %zu matched points, %d are needed: show a board or a scene with texture",
+                  result_.row_differences_px.size(), params_.min_points)};
   std::vector<std::string> faults;
   if (result_.median_epipolar_px() > params_.max_epipolar_px)
-    faults.push_back(text("the median epipolar error is %.2f px (limit %.2f); calibrate again",
-                          result_.median_epipolar_px(), params_.max_epipolar_px));
+    faults.push_back(formatted("the median epipolar error is %.2f px (limit %.2f); calibrate again",
+                               result_.median_epipolar_px(), params_.max_epipolar_px));
   const std::optional<double> length_error = result_.median_length_error();
   if (length_error && std::abs(*length_error) > params_.max_length_error)
     faults.push_back(
-        text("lengths on the board are off by %+.1f %% (limit %.0f %%); is --square-mm "
-             "right? Else calibrate again",
-             100.0 * *length_error, 100.0 * params_.max_length_error));
+        formatted("lengths on the board are off by %+.1f %% (limit %.0f %%); is --square-mm "
+                  "right? Else calibrate again",
+                  100.0 * *length_error, 100.0 * params_.max_length_error));
   return faults;
 }
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-#include "modules/calibrate/text.hpp"
+#include "common/formatted.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -50,11 +50,13 @@ void advise_tilt(const std::vector<ViewFit>& figures, const AdviceParams& params
     return std::abs(view.tilt_updown_deg) >= params.tilt_deg;
   });
   if (sideways < params.tilted_views)
-    advice.push_back(text("turn the board left and right by 20 to 45 degrees (%d of %zu views are)",
-                          sideways, figures.size()));
+    advice.push_back(
+        formatted("turn the board left and right by 20 to 45 degrees (%d of %zu views are)",
+                  sideways, figures.size()));
   if (updown < params.tilted_views)
-    advice.push_back(text("tip the board up and down by 20 to 45 degrees (%d of %zu views are)",
-                          updown, figures.size()));
+    advice.push_back(
+        formatted("tip the board up and down by 20 to 45 degrees (%d of %zu views are)", updown,
+                  figures.size()));
 }
 
 void advise_distance(const std::vector<ViewFit>& figures, const AdviceParams& params,
@@ -63,8 +65,8 @@ void advise_distance(const std::vector<ViewFit>& figures, const AdviceParams& pa
       figures.begin(), figures.end(),
       [](const ViewFit& a, const ViewFit& b) { return a.distance_m < b.distance_m; });
   if (farthest->distance_m >= params.distance_ratio * nearest->distance_m) return;
-  advice.push_back(text("hold the board nearer and farther: all stood at %.2f to %.2f m",
-                        nearest->distance_m, farthest->distance_m));
+  advice.push_back(formatted("hold the board nearer and farther: all stood at %.2f to %.2f m",
+                             nearest->distance_m, farthest->distance_m));
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ std::vector<std::string> advise(const StereoFit& fit, const cv::Size& image_size
     const std::vector<std::string> empty =
         empty_regions(covered_area(fit.views, side, image_size), params.min_region_share);
     if (!empty.empty())
-      advice.push_back(text("show the board in these parts of the %s image: ", name) +
+      advice.push_back(formatted("show the board in these parts of the %s image: ", name) +
                        joined(empty));
   }
   advise_tilt(fit.figures, params, advice);

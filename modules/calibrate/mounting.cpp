@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "common/cloud/ground_plane.hpp"
-#include "modules/calibrate/text.hpp"
+#include "common/formatted.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
 
 namespace limbcast::calibrate {
@@ -51,9 +51,9 @@ void MountingFinder::add(const GreyPair& pair) {
 Mounting MountingFinder::mounting() const {
   if (pairs_with_ground() < params_.min_frames)
     throw std::runtime_error(
-        text("%d of %d pairs show the ground; let the camera see the free "
-             "floor, level or tipped by less than 30 degrees",
-             pairs_with_ground(), pairs_));
+        formatted("%d of %d pairs show the ground; let the camera see the free "
+                  "floor, level or tipped by less than 30 degrees",
+                  pairs_with_ground(), pairs_));
   Mounting mounting;
   mounting.down = median_direction(downs_);
   mounting.sensor_height_m = median(heights_m_);
@@ -64,7 +64,7 @@ Mounting MountingFinder::mounting() const {
     differences_m.push_back(std::abs(heights_m_[i] - *mounting.sensor_height_m));
   }
   if (median(angles_deg) > params_.max_spread_deg || median(differences_m) > params_.max_spread_m)
-    throw std::runtime_error(text(
+    throw std::runtime_error(formatted(
         "the pairs do not agree: gravity within %.1f degrees (limit %.0f), "
         "height within %.2f m (limit %.1f); did the camera move?",
         median(angles_deg), params_.max_spread_deg, median(differences_m), params_.max_spread_m));

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "common/formatted.hpp"
 #include "modules/calibrate/coverage.hpp"
 #include "modules/calibrate/report.hpp"
-#include "modules/calibrate/text.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -67,7 +67,7 @@ class ErrorChart {
       const double error_px = limit_px_ * i / kLines;
       const int row = row_of(error_px);
       cv::line(canvas_, {kMargin_px, row}, {canvas_.cols, row}, kGrid);
-      write_words(canvas_, text("%.2f", error_px), {0, std::max(10, row)});
+      write_words(canvas_, formatted("%.2f", error_px), {0, std::max(10, row)});
     }
   }
   void draw_bar(double from, double width, double error_px, const cv::Scalar& color) {
@@ -103,12 +103,12 @@ cv::Mat draw_report(const StereoFit& fit) {
                                          std::tuple(Side::kRight, right_from, "right")}) {
     draw_coverage(canvas({from, kMargin_px, kImageWidth_px, image_height}), fit, side, image_size);
     const double share = share_of(covered_area(fit.views, side, image_size));
-    write_words(canvas, text("%s image: boards cover %.0f %%", name, 100.0 * share),
+    write_words(canvas, formatted("%s image: boards cover %.0f %%", name, 100.0 * share),
                 {from, kMargin_px - 12});
   }
   write_words(canvas,
-              text("error of each view [px]; all: reprojection %.2f, epipolar %.2f",
-                   fit.reprojection_px, fit.epipolar_px),
+              formatted("error of each view [px]; all: reprojection %.2f, epipolar %.2f",
+                        fit.reprojection_px, fit.epipolar_px),
               {kMargin_px, chart_top - 30});
   write_words(canvas, "reprojection left", {kMargin_px, chart_top - 12}, kLeftColor);
   write_words(canvas, "right", {kMargin_px + 140, chart_top - 12}, kRightColor);

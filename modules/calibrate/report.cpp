@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/camera/calibration_io.hpp"
+#include "common/formatted.hpp"
 #include "modules/calibrate/coverage.hpp"
-#include "modules/calibrate/text.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -13,7 +13,7 @@ constexpr double kMillimetres = 1e3;
 
 std::string lens_line(const char* side, const LensCalibration& lens,
                       const LensUncertainty& uncertainty, double coverage) {
-  return text(
+  return formatted(
       "%-5s  focal length %.1f x %.1f px (sigma %.2f), principal point %.1f, %.1f (sigma "
       "%.2f); boards cover %.0f %% of the image\n",
       side, lens.camera.fx, lens.camera.fy, uncertainty.focal_px, lens.camera.cx, lens.camera.cy,
@@ -27,7 +27,8 @@ std::string view_table(const std::vector<ViewFit>& figures) {
       "view                  points  reprojection left  right  epipolar [px]  distance [m]  tilt "
       "sideways  up/down [deg]\n";
   for (const ViewFit& view : figures)
-    table += text("%-20s  %6d  %17.2f  %5.2f  %13.2f  %12.2f  %13.0f  %13.0f\n", view.name.c_str(),
+    table +=
+        formatted("%-20s  %6d  %17.2f  %5.2f  %13.2f  %12.2f  %13.0f  %13.0f\n", view.name.c_str(),
                   view.num_points, view.reprojection_left_px, view.reprojection_right_px,
                   view.epipolar_px, view.distance_m, view.tilt_sideways_deg, view.tilt_updown_deg);
   return table;
@@ -36,20 +37,20 @@ std::string view_table(const std::vector<ViewFit>& figures) {
 std::string rejected_table(const std::vector<RejectedView>& rejected) {
   std::string table;
   for (const RejectedView& view : rejected)
-    table += text("%-20s  rejected: %s\n", view.name.c_str(), view.reason.c_str());
+    table += formatted("%-20s  rejected: %s\n", view.name.c_str(), view.reason.c_str());
   return table;
 }
 
 std::string summary_text(const StereoFit& fit) {
   const StereoCalibration& calibration = fit.calibration;
   const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
-  return text("%zu views: reprojection error %.2f px, epipolar error %.2f px (RMS)\n",
-              fit.views.size(), fit.reprojection_px, fit.epipolar_px) +
+  return formatted("%zu views: reprojection error %.2f px, epipolar error %.2f px (RMS)\n",
+                   fit.views.size(), fit.reprojection_px, fit.epipolar_px) +
          lens_line("left", calibration.left, fit.left,
                    share_of(covered_area(fit.views, Side::kLeft, size))) +
          lens_line("right", calibration.right, fit.right,
                    share_of(covered_area(fit.views, Side::kRight, size))) +
-         text("baseline %.2f mm\n", kMillimetres * calibration.T.norm());
+         formatted("baseline %.2f mm\n", kMillimetres * calibration.T.norm());
 }
 
 }  // namespace limbcast::calibrate

@@ -2,13 +2,13 @@
 
 #include "common/camera/calibration_io.hpp"
 #include "common/config/log.hpp"
+#include "common/formatted.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/coverage.hpp"
 #include "modules/calibrate/output.hpp"
 #include "modules/calibrate/pair_input.hpp"
 #include "modules/calibrate/report.hpp"
-#include "modules/calibrate/text.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -36,7 +36,7 @@ ViewCollector collect(const Options& options, const Board& board) {
   visit_pairs(options.source, [&](const GreyPair& pair) {
     if (!collector.add(pair)) return true;
     const auto taken = static_cast<int>(collector.views().size());
-    config::log(config::LogLevel::kInfo, text("%s: view %d taken", pair.name.c_str(), taken));
+    config::log(config::LogLevel::kInfo, formatted("%s: view %d taken", pair.name.c_str(), taken));
     return !sequence || taken < options.views;
   });
   return collector;

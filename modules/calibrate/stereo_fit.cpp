@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "modules/calibrate/text.hpp"
+#include "common/formatted.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
@@ -192,8 +192,9 @@ Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params)
     for (std::size_t i = 0; i < figures.size(); ++i) {
       const double error_px = kind.error_px(figures[i]);
       if (error_px / limit_px <= worst.excess) continue;
-      worst = {i, error_px / limit_px,
-               text("%s error %.2f px (limit %.2f): wrong points, or the board moved between the "
+      worst = {
+          i, error_px / limit_px,
+          formatted("%s error %.2f px (limit %.2f): wrong points, or the board moved between the "
                     "two images",
                     kind.name, error_px, limit_px)};
     }
@@ -204,9 +205,9 @@ Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params)
 void check_enough(std::size_t num_views, const FitParams& params) {
   if (static_cast<int>(num_views) >= params.min_views) return;
   throw std::runtime_error(
-      text("only %zu good views of the board, at least %d are needed, 15 to 30 are better; do "
-           "--board, --columns and --rows describe the board?",
-           num_views, params.min_views));
+      formatted("only %zu good views of the board, at least %d are needed, 15 to 30 are better; do "
+                "--board, --columns and --rows describe the board?",
+                num_views, params.min_views));
 }
 
 int count_tilted(const std::vector<ViewFit>& figures, double tilt_deg) {
@@ -219,19 +220,19 @@ void judge_lens(const char* side, const PinholeCamera& camera, const LensUncerta
                 const VerdictParams& params, std::vector<std::string>& faults) {
   if (std::abs(camera.fx / camera.fy - 1.0) > params.max_aspect_error)
     faults.push_back(
-        text("%s camera: focal lengths %.0f and %.0f px differ by more than %.0f %%; "
-             "are the squares of the board square?",
-             side, camera.fx, camera.fy, 100.0 * params.max_aspect_error));
+        formatted("%s camera: focal lengths %.0f and %.0f px differ by more than %.0f %%; "
+                  "are the squares of the board square?",
+                  side, camera.fx, camera.fy, 100.0 * params.max_aspect_error));
   if (camera.cx < 0.0 || camera.cx >= camera.width || camera.cy < 0.0 || camera.cy >= camera.height)
     faults.push_back(
-        text("%s camera: the principal point (%.0f, %.0f) is outside the image; add "
-             "views with a tilted board",
-             side, camera.cx, camera.cy));
+        formatted("%s camera: the principal point (%.0f, %.0f) is outside the image; add "
+                  "views with a tilted board",
+                  side, camera.cx, camera.cy));
   if (!(uncertainty.focal_px <= params.max_focal_sigma * camera.fx))
     faults.push_back(
-        text("%s camera: the focal length %.1f px is known to %.1f px only (limit "
-             "%.0f %%); add views with a tilted board",
-             side, camera.fx, uncertainty.focal_px, 100.0 * params.max_focal_sigma));
+        formatted("%s camera: the focal length %.1f px is known to %.1f px only (limit "
+                  "%.0f %%); add views with a tilted board",
+                  side, camera.fx, uncertainty.focal_px, 100.0 * params.max_focal_sigma));
 }
 
 }  // namespace
@@ -270,9 +271,9 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
   const int tilted = count_tilted(fit.figures, params.min_tilt_deg);
   if (tilted < params.min_tilted_views)
     verdict.faults.push_back(
-        text("only %d views show the board tilted by %.0f degrees or more (%d "
-             "are needed): the focal length is a guess",
-             tilted, params.min_tilt_deg, params.min_tilted_views));
+        formatted("only %d views show the board tilted by %.0f degrees or more (%d "
+                  "are needed): the focal length is a guess",
+                  tilted, params.min_tilt_deg, params.min_tilted_views));
   const Eigen::Vector3d& T = calibration.T;
   if (std::abs(T.y()) > std::abs(T.x())) {
     verdict.faults.push_back("one camera stands above the other; mount them side by side");
@@ -281,24 +282,24 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
   }
   if (fit.reprojection_px > params.max_reprojection_px)
     verdict.faults.push_back(
-        text("the reprojection error is %.2f px (limit %.2f); is the board flat, "
-             "are --columns and --rows right?",
-             fit.reprojection_px, params.max_reprojection_px));
+        formatted("the reprojection error is %.2f px (limit %.2f); is the board flat, "
+                  "are --columns and --rows right?",
+                  fit.reprojection_px, params.max_reprojection_px));
   if (fit.epipolar_px > params.max_epipolar_px)
     verdict.faults.push_back(
-        text("the epipolar error is %.2f px (limit %.2f); were both images "
-             "taken at the same time?",
-             fit.epipolar_px, params.max_epipolar_px));
+        formatted("the epipolar error is %.2f px (limit %.2f); were both images "
+                  "taken at the same time?",
+                  fit.epipolar_px, params.max_epipolar_px));
   judge_lens("left", calibration.left.camera, fit.left, params, verdict.faults);
   judge_lens("right", calibration.right.camera, fit.right, params, verdict.faults);
   if (coverage < params.min_coverage)
     verdict.faults.push_back(
-        text("the boards cover %.0f %% of the image (limit %.0f %%); outside of "
-             "that the distortion is a guess",
-             100.0 * coverage, 100.0 * params.min_coverage));
+        formatted("the boards cover %.0f %% of the image (limit %.0f %%); outside of "
+                  "that the distortion is a guess",
+                  100.0 * coverage, 100.0 * params.min_coverage));
   if (static_cast<int>(fit.views.size()) < params.enough_views)
-    verdict.warnings.push_back(text("only %zu views; %d or more give a better result",
-                                    fit.views.size(), params.enough_views));
+    verdict.warnings.push_back(formatted("only %zu views; %d or more give a better result",
+                                         fit.views.size(), params.enough_views));
   return verdict;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/formatted.hpp"
 #include "common/input_error.hpp"
-#include "modules/calibrate/text.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -76,8 +76,9 @@ std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& 
                                             std::tuple(&pair.right, &view->right, "right")}) {
     const std::optional<double> width_px = edge_width_px(*image, board_, *points);
     if (width_px && *width_px > params_.max_edge_width_px)
-      return text("blurred: edges in the %s image are %.1f px wide (limit %.1f): motion or focus",
-                  side, *width_px, params_.max_edge_width_px);
+      return formatted(
+          "blurred: edges in the %s image are %.1f px wide (limit %.1f): motion or focus", side,
+          *width_px, params_.max_edge_width_px);
   }
   return "";
 }
@@ -85,15 +86,15 @@ std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& 
 std::string ViewCollector::why_not(const View& view) const {
   const auto num_common = static_cast<int>(common_points(view.left, view.right).ids.size());
   if (num_common < params_.min_points)
-    return text("both images show %d points of the board, %d are needed", num_common,
-                params_.min_points);
+    return formatted("both images show %d points of the board, %d are needed", num_common,
+                     params_.min_points);
   if (!in_sequence_) return "";
   if (!previous_) return "the board has just come into view";
   const double motion_px = std::max(mean_distance_px(view.left, previous_->left),
                                     mean_distance_px(view.right, previous_->right));
   if (motion_px > params_.max_motion_px)
-    return text("moved by %.1f px since the frame before (limit %.1f)", motion_px,
-                params_.max_motion_px);
+    return formatted("moved by %.1f px since the frame before (limit %.1f)", motion_px,
+                     params_.max_motion_px);
   for (const View& other : views_) {
     if (mean_distance_px(view.left, other.left) < params_.min_change * image_size_.width)
       return "stands where it stood in " + other.name;

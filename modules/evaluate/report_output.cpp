@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "common/formatted.hpp"
 #include "modules/evaluate/report.hpp"
 
 namespace limbcast::evaluate {
@@ -16,15 +16,6 @@ using Json = nlohmann::ordered_json;
 const std::vector<std::string> kMainFigures = {
     "pointing_right_percent",     "wrong_reported_percent", "pointing_median_deg",
     "joints_within_10cm_percent", "joint_error_mean_cm",    "people_found_percent"};
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  const int size = std::snprintf(nullptr, 0, format, values...);
-  std::string text(static_cast<std::size_t>(size) + 1, '\0');
-  std::snprintf(text.data(), text.size(), format, values...);
-  text.resize(static_cast<std::size_t>(size));
-  return text;
-}
 
 std::string interval_text(const Figure& figure) {
   if (!figure.interval) return "";

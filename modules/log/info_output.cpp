@@ -1,9 +1,9 @@
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "common/formatted.hpp"
 #include "modules/log/log_info.hpp"
 
 namespace limbcast::logs {
@@ -12,15 +12,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kMicroseconds = 1'000'000;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  const int size = std::snprintf(nullptr, 0, format, values...);
-  std::string text(static_cast<std::size_t>(size) + 1, '\0');
-  std::snprintf(text.data(), text.size(), format, values...);
-  text.resize(static_cast<std::size_t>(size));
-  return text;
-}
 
 std::string bytes_text(std::int64_t bytes) {
   constexpr double kKilo = 1000.0;

@@ -1,7 +1,8 @@
 #include "modules/status/table.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "common/formatted.hpp"
 
 namespace limbcast::status {
 namespace {
@@ -9,15 +10,6 @@ namespace {
 constexpr const char* kRed = "\033[31m";
 constexpr const char* kYellow = "\033[33m";
 constexpr const char* kPlain = "\033[0m";
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  const int size = std::snprintf(nullptr, 0, format, values...);
-  std::string text(static_cast<std::size_t>(size) + 1, '\0');
-  std::snprintf(text.data(), text.size(), format, values...);
-  text.resize(static_cast<std::size_t>(size));
-  return text;
-}
 
 std::string milliseconds(const std::optional<double>& value) {
   return value ? formatted("%.0f", *value) : "-";

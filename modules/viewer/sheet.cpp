@@ -1,6 +1,6 @@
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "common/formatted.hpp"
 #include "modules/viewer/painting.hpp"
 #include "modules/viewer/pictures.hpp"
 
@@ -13,13 +13,6 @@ constexpr double kTextSize = 0.45;
 constexpr int kLineHeight = 18;
 /// Lines that fit into the cell of words.
 constexpr int kMaxLines = 19;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[160];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
-}
 
 const char* source_name(GravitySource source) {
   switch (source) {
