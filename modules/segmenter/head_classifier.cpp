@@ -16,7 +16,7 @@ namespace {
 
 HeadClassifier::HeadClassifier() : HeadClassifier(unpack(kPatchNetwork), unpack(kPersonNetwork)) {
   if (kPatchNetwork.inputs != kPatchSize)
-    throw std::logic_error("head_networks.inc: trained for other patches; run train_heads.sh");
+    throw std::logic_error("head_networks.inc: trained for other patches; run train.sh");
 }
 
 HeadClassifier::HeadClassifier(Network patch, Network person)

@@ -14,6 +14,8 @@ constexpr float kMeanDepth_m = 2.7F;
 /// Noise of a depth that counts one [m].
 constexpr float kNoiseScale_m = 0.1F;
 
+}  // namespace
+
 void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
                  std::vector<float>& patch) {
   const Eigen::Vector2f right(-lattice.up.y(), lattice.up.x());
@@ -38,8 +40,6 @@ void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGri
     }
   }
 }
-
-}  // namespace
 
 std::vector<float> sample_patch(const Lattice& lattice, const PatchPlace& place) {
   std::vector<float> patch;

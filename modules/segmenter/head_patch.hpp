@@ -38,6 +38,10 @@ struct PatchPlace {
   bool mirrored = false;
 };
 
+/// Appends the depths of one grid around a place to a patch, as sample_patch tells.
+void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
+                 std::vector<float>& patch);
+
 /// Depths around a candidate, grid by grid: (depth - head's) / scale within -1 to 1 or 0 where
 /// nothing was measured, then 1 where measured, 0 in a hole, -1 outside the image.
 std::vector<float> sample_patch(const Lattice& lattice, const PatchPlace& place);

@@ -61,6 +61,9 @@ struct Lattice {
 
 /// Label of a point that belongs to no cluster.
 inline constexpr std::int16_t kNobody = -1;
+/// Label of a point of which is not known whether it is a person's: the range images leave it out
+/// as if it had not been measured.
+inline constexpr std::int16_t kUnsure = -2;
 
 /// Every `step`-th pixel of an organised cloud in both directions.
 Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step);

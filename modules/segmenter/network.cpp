@@ -11,6 +11,12 @@ float Network::log_odds(const std::vector<float>& input) const {
   return sum;
 }
 
+Eigen::VectorXf Network::log_odds(const Weights& inputs) const {
+  const Weights activation =
+      (inputs * hidden_weights.transpose()).rowwise() + hidden_bias.transpose();
+  return (activation.unaryExpr(&soft_sign) * output_weights).array() + output_bias;
+}
+
 Network unpack(const StoredNetwork& stored) {
   Network network;
   network.hidden_weights.resize(stored.hidden, stored.inputs);

@@ -16,6 +16,8 @@ struct Network {
 
   /// Log odds. `input` must hold one value for each column of hidden_weights.
   float log_odds(const std::vector<float>& input) const;
+  /// The same of many inputs, one a row.
+  Eigen::VectorXf log_odds(const Weights& inputs) const;
 };
 
 /// Weights as they stand in the program text: 8 bits each, one scale a row.

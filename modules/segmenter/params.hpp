@@ -105,6 +105,25 @@ struct FurnitureParams {
   float min_bend_m = 0.04F, bend_sigmas = 3.0F;
 };
 
+/// What is cut off from a cluster by the odds of its points (body_classifier.hpp). Chosen on the
+/// recording `seated` of rgbd_pointing and bodies D1 to D3 of stereo_dev.
+struct BodyCutParams {
+  /// Log odds below which a point is not taken for a body's. Lower: seats stay, higher: hands go.
+  float min_body_odds = -1.0F;
+  /// Above these a point that was cut may be a body's all the same: neither a body's nor free
+  /// space.
+  float min_unsure_odds = -2.0F;
+  /// Connected points below min_body_odds count from this area on [m^2]: less is an error on a
+  /// limb.
+  float min_part_m2 = 0.06F;
+  /// With less of them the body touches nothing, and the cluster is left whole [m^2]: an arm seen
+  /// with its skirt.
+  float min_other_m2 = 0.15F;
+  /// Share of a cluster that must be left: a seated person keeps a third, a stain on a wall an
+  /// eighth.
+  float min_left_share = 0.2F;
+};
+
 /// Ring template on the depth image.
 struct HeadShapeParams {
   /// Depth where heads are searched [m].
@@ -193,6 +212,7 @@ struct Params {
   PaperGrowingParams paper;
   JointGrowingParams joint;
   FurnitureParams furniture;
+  BodyCutParams body_cut;
   HeadShapeParams head;
   ClassifierParams classifier;
   FilterParams filters;

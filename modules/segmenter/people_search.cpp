@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "modules/segmenter/body_cut.hpp"
 #include "modules/segmenter/cluster_figures.hpp"
 #include "modules/segmenter/furniture.hpp"
 #include "modules/segmenter/joint_growing.hpp"
@@ -68,6 +69,23 @@ class Trial {
 
   void leave_furniture() { segmenter::leave_furniture(*lattice_, params_->furniture, growth_); }
 
+  /// Cuts off what is no part of a body. Returns the heads that are nearly all cut off: no people.
+  std::vector<RejectedHead> cut_to_bodies(const BodyClassifier& bodies) {
+    const std::vector<int> before = count_points();
+    unsure_ = segmenter::cut_to_bodies(*lattice_, bodies, params_->body_cut, growth_);
+    const std::vector<int> after = count_points();
+    const float min_share = params_->body_cut.min_left_share;
+    std::vector<RejectedHead> rejected;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      if (growth_.dropped(static_cast<std::int16_t>(k)) || before[k] == 0) continue;
+      const float share = static_cast<float>(after[k]) / static_cast<float>(before[k]);
+      if (share >= min_share) continue;
+      growth_.drop(static_cast<std::int16_t>(k));
+      rejected.push_back({growth_.heads()[k], {SegmentFilter::kNotHeadShaped, share, min_share}});
+    }
+    return rejected;
+  }
+
   /// The heads that are left, and their points.
   void name_people(FoundPeople& found) const {
     std::vector<std::int16_t> name_of(verdicts_.size(), kNobody);
@@ -81,6 +99,9 @@ class Trial {
     for (std::int16_t& label : found.labels) {
       if (label != kNobody) label = name_of[static_cast<std::size_t>(label)];
     }
+    for (const std::uint32_t i : unsure_) {
+      if (found.labels[i] == kNobody) found.labels[i] = kUnsure;
+    }
   }
 
  private:
@@ -88,6 +109,15 @@ class Trial {
     float odds = 0.0F;
     std::optional<Rejection> rejection;
   };
+
+  /// Points of each head.
+  std::vector<int> count_points() const {
+    std::vector<int> counts(growth_.heads().size(), 0);
+    for (const std::int16_t label : growth_.labels()) {
+      if (label != kNobody) ++counts[static_cast<std::size_t>(label)];
+    }
+    return counts;
+  }
 
   /// Pairs of seeds that may be one person's, the one that looks more like a head first.
   std::vector<std::pair<std::size_t, std::size_t>> rivals() const {
@@ -147,6 +177,7 @@ class Trial {
   const Params* params_;
   JointGrowth growth_;
   std::vector<Verdict> verdicts_;
+  std::vector<std::uint32_t> unsure_;  ///< points that were cut off, but may be a body's
 };
 
 }  // namespace
@@ -182,7 +213,8 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
 }
 
 FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
-                        const HeadClassifier& classifier, const Params& params) {
+                        const HeadClassifier& classifier, const BodyClassifier* bodies,
+                        const Params& params) {
   FoundPeople found;
   std::vector<HeadCandidate> likely =
       likely_heads(lattice, std::move(candidates), classifier, params.classifier, found.rejected);
@@ -190,6 +222,10 @@ FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candi
   while (const auto rejected = trial.drop_rival()) found.rejected.push_back(*rejected);
   while (const auto rejected = trial.drop_weakest()) found.rejected.push_back(*rejected);
   trial.leave_furniture();
+  if (bodies != nullptr) {
+    for (const RejectedHead& rejected : trial.cut_to_bodies(*bodies))
+      found.rejected.push_back(rejected);
+  }
   trial.name_people(found);
   return found;
 }

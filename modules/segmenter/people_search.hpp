@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "modules/segmenter/body_classifier.hpp"
 #include "modules/segmenter/filters.hpp"
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/head_shape.hpp"
@@ -20,7 +21,7 @@ struct RejectedHead {
 struct FoundPeople {
   std::vector<HeadCandidate> heads;
   std::vector<float> person_odds;    ///< one for each head
-  std::vector<std::int16_t> labels;  ///< head of each point of the lattice, or kNobody
+  std::vector<std::int16_t> labels;  ///< head of each point of the lattice, kNobody or kUnsure
   std::vector<RejectedHead> rejected;
 };
 
@@ -31,8 +32,10 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
                                         const ClassifierParams& params,
                                         std::vector<RejectedHead>& rejected);
 
-/// Grows all candidates together, and again without the least likely one until all are people.
+/// Grows all candidates together, and again without the least likely one until all are people; then
+/// cuts off what is no part of them. `bodies` is null for a lattice that is no camera's.
 FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
-                        const HeadClassifier& classifier, const Params& params);
+                        const HeadClassifier& classifier, const BodyClassifier* bodies,
+                        const Params& params);
 
 }  // namespace limbcast::segmenter

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/segmenter/lattice.hpp"
+
 namespace limbcast::segmenter {
 namespace {
 
@@ -70,7 +72,7 @@ void fill_from_camera(const RangeImageSource& source, std::int16_t label, Segmen
       const std::size_t i = static_cast<std::size_t>(v) * static_cast<std::size_t>(cloud.width) +
                             static_cast<std::size_t>(u);
       const float z_m = cloud.points_m[i].z();
-      const bool hole = !(z_m > 0.0F) || !std::isfinite(z_m);
+      const bool hole = !(z_m > 0.0F) || !std::isfinite(z_m) || labels[i] == kUnsure;
       const bool own = !hole && labels[i] == label;
       const auto is_skin = static_cast<std::uint8_t>(colored && is_skin_colored(source, i));
       image.depth_m.push_back(hole ? 0.0F : z_m);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "modules/segmenter/body_cut.hpp"
 #include "modules/segmenter/furniture.hpp"
 #include "modules/segmenter/ground.hpp"
 #include "modules/segmenter/head_shape.hpp"
@@ -93,7 +94,11 @@ Segments Segmenter::cut_out_people(const Cloud& cloud,
   }
   JointGrowth growth(scene.lattice, heads, params_.joint, params_.reach);
   leave_furniture(scene.lattice, params_.furniture, growth);
-  fill_segments(scene, labels_of_cloud(scene, growth.labels()), result);
+  std::vector<std::uint32_t> unsure;
+  if (cloud.organized()) unsure = cut_to_bodies(scene.lattice, bodies_, params_.body_cut, growth);
+  std::vector<std::int16_t> labels = growth.labels();
+  for (const std::uint32_t i : unsure) labels[i] = kUnsure;
+  fill_segments(scene, labels_of_cloud(scene, labels), result);
   return result;
 }
 
@@ -135,7 +140,8 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
                                                   const std::vector<HeadCandidate>& seeds,
                                                   Segments& result) const {
   const LevelFrame& frame = scene.lattice.frame;
-  const FoundPeople people = find_people(scene.lattice, seeds, classifier_, params_);
+  const FoundPeople people = find_people(scene.lattice, seeds, classifier_,
+                                         scene.cloud.organized() ? &bodies_ : nullptr, params_);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
     result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {

@@ -5,6 +5,7 @@
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
+#include "modules/segmenter/body_classifier.hpp"
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
@@ -51,6 +52,7 @@ class Segmenter {
   Params params_;
   SkinColor skin_;
   HeadClassifier classifier_;
+  BodyClassifier bodies_;
 };
 
 /// What the heads of an organised cloud are searched in: every `step`-th of its pixels.

@@ -160,7 +160,7 @@ Network train(const std::vector<Example>& examples, const TrainingParams& params
 void write_networks(const std::vector<std::pair<std::string, Network>>& networks,
                     const std::string& path) {
   std::ofstream file(path);
-  file << "// Written by limbcast-train-heads; not to be edited.\n// clang-format off\n";
+  file << "// Written by a program that train.sh runs; not to be edited.\n// clang-format off\n";
   for (const auto& [name, network] : networks) write_network(network, name, file);
   file << "// clang-format on\n";
   if (!file) throw std::runtime_error(path + ": cannot be written");

@@ -1,7 +1,7 @@
 // Trains the two networks of the head classifier and writes modules/segmenter/head_networks.inc:
 // limbcast-train-heads OUT.inc FOLDER... reads each folder's labelled frames (pairs through the
 // reconstructor). Frames that show bodies D4 or D5 are left out: they are for checking.
-// train_heads.sh makes the simulated folders and runs it on all that it was trained on.
+// train.sh makes the simulated folders and runs it on all that it was trained on.
 
 #include <array>
 #include <cmath>

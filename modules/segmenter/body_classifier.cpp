@@ -1,0 +1,117 @@
+#include "modules/segmenter/body_classifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace limbcast::segmenter {
+namespace {
+
+#include "modules/segmenter/body_network.inc"
+
+/// In both directions the network is asked for every second point, to spare time.
+constexpr int kStride_px = 2;
+/// Odds are averaged over this half width [lattice px], and over points no farther than this [m].
+constexpr int kMeanReach_px = 3;
+constexpr float kMeanReach_m = 0.08F;
+
+/// Offsets against the head that count one [m]: a trunk's size.
+constexpr float kOffsetScale_m = 0.5F;
+/// A head's height that counts zero, the depth and the noise that count one, as in head patches
+/// [m].
+constexpr float kMeanHeight_m = 1.35F, kMeanDepth_m = 2.7F, kNoiseScale_m = 0.1F;
+
+std::vector<std::uint32_t> asked_points(const Lattice& lattice,
+                                        const std::vector<std::int16_t>& labels,
+                                        std::int16_t label) {
+  std::vector<std::uint32_t> asked;
+  for (int v = 0; v < lattice.height; v += kStride_px) {
+    for (int u = 0; u < lattice.width; u += kStride_px) {
+      const std::size_t i = lattice.index(u, v);
+      if (labels[i] == label) asked.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return asked;
+}
+
+/// Mean over the asked points of the cluster that lie near; 0 where there is none.
+float mean_near(const Lattice& lattice, const std::vector<std::int16_t>& labels,
+                const std::vector<float>& asked_odds, int u, int v) {
+  // To the first asked row and column of the window.
+  const auto first = [](int from) {
+    return (std::max(0, from) + kStride_px - 1) / kStride_px * kStride_px;
+  };
+  const std::size_t i = lattice.index(u, v);
+  float sum = 0.0F;
+  int count = 0;
+  for (int y = first(v - kMeanReach_px); y <= std::min(lattice.height - 1, v + kMeanReach_px);
+       y += kStride_px) {
+    for (int x = first(u - kMeanReach_px); x <= std::min(lattice.width - 1, u + kMeanReach_px);
+         x += kStride_px) {
+      const std::size_t n = lattice.index(x, y);
+      const bool near =
+          (lattice.level_m[n] - lattice.level_m[i]).squaredNorm() <= kMeanReach_m * kMeanReach_m;
+      if (labels[n] != labels[i] || !near) continue;
+      sum += asked_odds[n];
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<float>(count) : 0.0F;
+}
+
+}  // namespace
+
+BodyClassifier::BodyClassifier() : BodyClassifier(unpack(kBodyNetwork)) {}
+
+BodyClassifier::BodyClassifier(Network network) : network_(std::move(network)) {}
+
+std::vector<float> point_input(const Lattice& lattice, const HeadCandidate& head, std::uint32_t i,
+                               bool mirrored) {
+  PatchPlace place;
+  const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
+  place.u = static_cast<float>(u);
+  place.v = static_cast<float>(v);
+  place.depth_m = lattice.depth_m[i];
+  place.mirrored = mirrored;
+  std::vector<float> input;
+  for (const PatchGrid& grid : kPointGrids) append_grid(lattice, place, grid, input);
+  Eigen::Vector3f offset = (lattice.level_m[i] - head.center_m) / kOffsetScale_m;
+  if (mirrored) offset.x() = -offset.x();
+  const float known = lattice.frame.ground_known ? 1.0F : 0.0F;
+  input.insert(input.end(), {offset.x(), std::abs(offset.x()), offset.y(), offset.z(),
+                             offset.norm(), known, known * lattice.level_m[i].z(),
+                             known * (head.center_m.z() - kMeanHeight_m) / kOffsetScale_m,
+                             std::log(place.depth_m / kMeanDepth_m),
+                             lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m});
+  return input;
+}
+
+std::vector<float> BodyClassifier::body_odds(const Lattice& lattice, const HeadCandidate& head,
+                                             const std::vector<std::int16_t>& labels,
+                                             std::int16_t label) const {
+  std::vector<float> odds(lattice.size(), 0.0F);
+  const std::vector<std::uint32_t> asked = asked_points(lattice, labels, label);
+  if (asked.empty()) return odds;
+  Network::Weights inputs(static_cast<Eigen::Index>(asked.size()), network_.hidden_weights.cols());
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    const std::vector<float> input = point_input(lattice, head, asked[k], false);
+    if (static_cast<Eigen::Index>(input.size()) != inputs.cols())
+      throw std::logic_error("body_network.inc: trained for other inputs; run train.sh");
+    inputs.row(static_cast<Eigen::Index>(k)) =
+        Eigen::Map<const Eigen::RowVectorXf>(input.data(), inputs.cols());
+  }
+  const Eigen::VectorXf told = network_.log_odds(inputs);
+  std::vector<float> asked_odds(lattice.size(), 0.0F);
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    asked_odds[asked[k]] = told[static_cast<Eigen::Index>(k)];
+  for (int v = 0; v < lattice.height; ++v) {
+    for (int u = 0; u < lattice.width; ++u) {
+      const std::size_t i = lattice.index(u, v);
+      if (labels[i] == label) odds[i] = mean_near(lattice, labels, asked_odds, u, v);
+    }
+  }
+  return odds;
+}
+
+}  // namespace limbcast::segmenter
