@@ -66,7 +66,7 @@ TEST(BodyCut, LeavesABodyWholeThatTouchesLittle) {
   // 0.1 m x 0.7 m are less than 0.15 m^2.
   const Lattice lattice = body_with_seat(0.1F);
   const Cut left = cut(lattice, 0.2F);
-  EXPECT_EQ(left.labels[index_at(lattice, 0.25F, 0.0F)], kPerson);
+  EXPECT_EQ(left.labels[index_at(lattice, 0.28F, 0.0F)], kPerson);
   EXPECT_TRUE(left.unsure.empty());
 }
 
