@@ -1,23 +1,15 @@
 #include "modules/calibrate/check.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 
 #include "common/formatted.hpp"
+#include "common/median.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
 #include "modules/reconstructor/rectifier.hpp"
+#include "modules/reconstructor/row_differences.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Point seen at `left` and `right` in the rectified images [m].
 cv::Point3d triangulate(const cv::Point2d& left, const cv::Point2d& right,
@@ -30,29 +22,15 @@ cv::Point3d triangulate(const cv::Point2d& left, const cv::Point2d& right,
           z_m};
 }
 
-/// Where `from` of one image stands in the other.
-struct Tracks {
-  std::vector<cv::Point2f> to;
-  std::vector<uchar> found;
-};
-Tracks track(const cv::Mat& from_image, const cv::Mat& to_image,
-             const std::vector<cv::Point2f>& from) {
-  constexpr int kWindow_px = 21, kPyramidLevels = 5;
-  Tracks tracks;
-  cv::calcOpticalFlowPyrLK(from_image, to_image, from, tracks.to, tracks.found, cv::noArray(),
-                           {kWindow_px, kWindow_px}, kPyramidLevels);
-  return tracks;
-}
-
 }  // namespace
 
 double CheckResult::median_epipolar_px() const {
-  std::vector<double> sizes;
-  for (const double difference : row_differences_px) sizes.push_back(std::abs(difference));
-  return median(std::move(sizes));
+  return row_differences_px.empty() ? 0.0 : reconstructor::median_size_px(row_differences_px);
 }
 
-double CheckResult::median_shift_px() const { return median(row_differences_px); }
+double CheckResult::median_shift_px() const {
+  return row_differences_px.empty() ? 0.0 : median(row_differences_px);
+}
 
 std::optional<double> CheckResult::median_length_error() const {
   if (length_errors.empty()) return std::nullopt;
@@ -97,24 +75,11 @@ bool CalibrationCheck::add_board(const GreyPair& pair) {
 }
 
 void CalibrationCheck::add_features(const GreyPair& pair) {
-  constexpr double kQuality = 0.02, kSpacing_px = 10.0;
-  // A corner that is tracked there and back must come to where it was.
-  constexpr double kReturn_px = 0.3;
-  // Corners that lie on a horizontal edge slide along it; larger row differences are wrong matches.
-  constexpr double kSearch_px = 8.0;
   const reconstructor::RectifiedPair images =
       reconstructor::Rectifier(calibration_).rectify(pair.left, pair.right);
-  std::vector<cv::Point2f> left;
-  cv::goodFeaturesToTrack(images.left, left, params_.max_features, kQuality, kSpacing_px);
-  if (left.empty()) return;
-  const Tracks there = track(images.left, images.right, left);
-  const Tracks back = track(images.right, images.left, there.to);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (there.found[i] == 0 || back.found[i] == 0) continue;
-    const cv::Point2f step = there.to[i] - left[i];
-    if (cv::norm(back.to[i] - left[i]) > kReturn_px || step.x > 1.0F) continue;
-    if (std::abs(step.y) <= kSearch_px) result_.row_differences_px.push_back(step.y);
-  }
+  const std::vector<double> differences_px = reconstructor::row_differences_px(images);
+  result_.row_differences_px.insert(result_.row_differences_px.end(), differences_px.begin(),
+                                    differences_px.end());
 }
 
 std::vector<std::string> CalibrationCheck::faults() const {

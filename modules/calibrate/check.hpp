@@ -17,8 +17,6 @@ struct CheckParams {
   double max_length_error = 0.02;
   /// With fewer points nothing is said.
   int min_points = 30;
-  /// Corners (Shi and Tomasi 1994) looked for in each frame that shows no board.
-  int max_features = 300;
 };
 
 /// How well a calibration fits the pairs it was given.
@@ -33,7 +31,7 @@ struct CheckResult {
 };
 
 /// Measures a calibration on pairs: with a board's points where one is seen, else with corners of
-/// the scene, tracked from the left into the right rectified image (Lucas and Kanade 1981).
+/// the scene (reconstructor::row_differences_px).
 class CalibrationCheck {
  public:
   CalibrationCheck(StereoCalibration calibration, const Board& board,

@@ -6,18 +6,13 @@
 
 #include "common/cloud/ground_plane.hpp"
 #include "common/formatted.hpp"
+#include "common/median.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
 
 namespace limbcast::calibrate {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Eigen::Vector3d median_direction(const std::vector<Eigen::Vector3d>& directions) {
   Eigen::Vector3d result;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/formatted.hpp"
+#include "common/median.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
@@ -163,9 +164,7 @@ StereoFit fit_once(const std::vector<View>& views, const Board& board, const cv:
 double median_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
   std::vector<double> errors_px;
   for (const ViewFit& view : figures) errors_px.push_back(error_px(view));
-  const auto middle = errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
-  std::nth_element(errors_px.begin(), middle, errors_px.end());
-  return *middle;
+  return median(std::move(errors_px));
 }
 
 double worst_reprojection_px(const ViewFit& view) {

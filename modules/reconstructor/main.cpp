@@ -1,4 +1,8 @@
+#include <utility>
+
+#include "common/config/log.hpp"
 #include "common/lcm_io/module.hpp"
+#include "modules/reconstructor/drift_watch.hpp"
 #include "modules/reconstructor/stage.hpp"
 
 namespace limbcast::reconstructor {
@@ -15,6 +19,8 @@ void run(int argc, const char* const* argv) {
 
   lcm_io::Module module("reconstructor", parser.common());
   Stage stage(options);
+  DriftWatch drift_watch;
+  std::string drift;
   module.subscribe_all<stereo_calibration_t>(
       options.stereo_calibration_channel,
       [&](const stereo_calibration_t& message) { stage.on_calibration(message); });
@@ -27,6 +33,10 @@ void run(int argc, const char* const* argv) {
           return;
         }
         module.publish_frame(options.point_cloud_channel, Stage::process(*reconstructor, message));
+        drift_watch.look_at(reconstructor, message);
+        const std::string drift_before = std::exchange(drift, drift_watch.warning());
+        module.set_note(drift);
+        if (drift_before.empty() && !drift.empty()) config::log(config::LogLevel::kWarning, drift);
       });
   module.subscribe_frames<depth_images_t>(
       options.depth_images_channel, [&](const depth_images_t& message) {

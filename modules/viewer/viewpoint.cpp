@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "common/median.hpp"
+
 namespace limbcast::viewer {
 namespace {
 
@@ -41,12 +43,6 @@ void append_points(const ViewFrame& frame, std::vector<Eigen::Vector3f>& points)
   for (std::size_t i = 0; i < frame.cloud->points_m.size(); ++i) {
     if (!frame.cloud->is_hole(i)) points.push_back(frame.cloud->points_m[i]);
   }
-}
-
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// What a view should show: people where there are any, else the cloud.

@@ -1,0 +1,59 @@
+#include "modules/reconstructor/drift_watch.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+
+#include "common/lcm_io/stereo_images_codec.hpp"
+#include "modules/reconstructor/colors.hpp"
+#include "modules/reconstructor/row_differences.hpp"
+
+namespace limbcast::reconstructor {
+namespace {
+
+std::vector<double> measure(const StereoReconstructor& reconstructor, const stereo_images_t& pair) {
+  const StereoImages images = lcm_io::from_message(pair);
+  return row_differences_px(
+      reconstructor.rectifier().rectify(grey_of(images.left), grey_of(images.right)));
+}
+
+}  // namespace
+
+void DriftWatch::look_at(const std::shared_ptr<const StereoReconstructor>& reconstructor,
+                         const stereo_images_t& pair) {
+  Camera& camera = cameras_[pair.stamp.sensor];
+  if (camera.reconstructor != reconstructor) camera = {reconstructor, DriftMonitor()};
+  if (is_busy() || !camera.monitor.is_due(pair.stamp.utime)) return;
+  measurement_ = std::async(std::launch::async, [reconstructor, pair] {
+    return Measurement{pair.stamp.sensor, reconstructor, pair.stamp.utime,
+                       measure(*reconstructor, pair)};
+  });
+}
+
+bool DriftWatch::is_busy() {
+  if (!measurement_.valid()) return false;
+  if (measurement_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return true;
+  Measurement done = measurement_.get();
+  Camera& camera = cameras_[done.sensor];
+  if (camera.reconstructor == done.reconstructor)
+    camera.monitor.add(done.utime, std::move(done.row_differences_px));
+  return false;
+}
+
+std::string DriftWatch::warning() const {
+  std::string text;
+  for (const auto& [sensor, camera] : cameras_) {
+    const std::optional<double> drift_px = camera.monitor.drift_px();
+    if (!drift_px) continue;
+    std::array<char, 160> words{};
+    std::snprintf(words.data(), words.size(),
+                  "drifted: the rows of the two images differ by %.1f px; measure it with "
+                  "limbcast-calibrate check and calibrate again",
+                  *drift_px);
+    text.append(text.empty() ? "" : "; ").append("the calibration of '").append(sensor);
+    text.append("' has ").append(words.data());
+  }
+  return text;
+}
+
+}  // namespace limbcast::reconstructor

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <future>
+#include <limbcast/stereo_images_t.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modules/reconstructor/drift.hpp"
+#include "modules/reconstructor/reconstructor.hpp"
+
+namespace limbcast::reconstructor {
+
+/// Watches on the pairs that come in whether the calibrations of their cameras still fit. It
+/// measures one pair a second, in a thread of its own, so that no frame waits for it.
+class DriftWatch {
+ public:
+  /// A pair from which a cloud could be made. A new reconstructor means a new calibration.
+  void look_at(const std::shared_ptr<const StereoReconstructor>& reconstructor,
+               const stereo_images_t& pair);
+  /// For the status: which camera's calibration is off and by how much; empty where none is.
+  std::string warning() const;
+
+ private:
+  struct Camera {
+    std::shared_ptr<const StereoReconstructor> reconstructor;
+    DriftMonitor monitor;
+  };
+  struct Measurement {
+    std::string sensor;
+    std::shared_ptr<const StereoReconstructor> reconstructor;
+    std::int64_t utime;
+    std::vector<double> row_differences_px;
+  };
+  /// True while a pair is being measured.
+  bool is_busy();
+
+  std::map<std::string, Camera> cameras_;
+  std::future<Measurement> measurement_;
+};
+
+}  // namespace limbcast::reconstructor
