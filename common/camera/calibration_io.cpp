@@ -5,10 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/core/eigen.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
 
+#include "common/camera/opencv_conversion.hpp"
 #include "common/camera/yaml_reader.hpp"
 #include "common/input_error.hpp"
 
@@ -185,18 +186,28 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
   return calibration;
 }
 
-cv::Mat to_cv(const Eigen::MatrixXd& matrix) {
-  cv::Mat result;
-  cv::eigen2cv(matrix, result);
-  return result;
+cv::FileStorage open_for_writing(const std::string& path) {
+  cv::FileStorage file(path, cv::FileStorage::WRITE | cv::FileStorage::FORMAT_YAML);
+  if (!file.isOpened()) throw std::runtime_error(path + ": cannot be written");
+  return file;
 }
 
-void write_lens(cv::FileStorage& file, const std::string& number, const LensCalibration& lens) {
-  const PinholeCamera& camera = lens.camera;
-  const cv::Matx33d K{camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  file << "K" + number << cv::Mat(K);
-  if (lens.distortion.empty()) return;
-  file << "D" + number << cv::Mat(lens.distortion, true).reshape(1, 1);
+void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
+  file << "image_width" << camera.width << "image_height" << camera.height;
+}
+
+void write_lens(cv::FileStorage& file, const std::string& matrix_key,
+                const std::string& distortion_key, const LensCalibration& lens) {
+  // Other programs take a missing key for an error.
+  const std::vector<double> none(5, 0.0);
+  file << matrix_key << cv::Mat(camera_matrix(lens.camera));
+  file << distortion_key
+       << cv::Mat(lens.distortion.empty() ? none : lens.distortion, true).reshape(1, 1);
+}
+
+void write_mounting(cv::FileStorage& file, const Mounting& mounting) {
+  if (mounting.down) file << "down" << cv::Mat(to_cv(*mounting.down));
+  if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
 }
 
 /// Q takes (u, v, disparity, 1) to a point, as cv::reprojectImageTo3D wants it.
@@ -211,8 +222,8 @@ cv::Mat disparity_to_point(const Rectification& rectification) {
 }
 
 void write_rectification(cv::FileStorage& file, const Rectification& rectification) {
-  file << "R1" << to_cv(rectification.R1) << "R2" << to_cv(rectification.R2);
-  file << "P1" << to_cv(rectification.P1) << "P2" << to_cv(rectification.P2);
+  file << "R1" << cv::Mat(to_cv(rectification.R1)) << "R2" << cv::Mat(to_cv(rectification.R2));
+  file << "P1" << cv::Mat(to_cv(rectification.P1)) << "P2" << cv::Mat(to_cv(rectification.P2));
   file << "Q" << disparity_to_point(rectification);
 }
 
@@ -252,17 +263,21 @@ StereoCalibration read_stereo_calibration(const std::string& path) {
 }
 
 void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration) {
-  cv::FileStorage file(path, cv::FileStorage::WRITE | cv::FileStorage::FORMAT_YAML);
-  if (!file.isOpened()) throw std::runtime_error(path + ": cannot be written");
-  file << "image_width" << calibration.left.camera.width;
-  file << "image_height" << calibration.left.camera.height;
-  write_lens(file, "1", calibration.left);
-  write_lens(file, "2", calibration.right);
-  file << "R" << to_cv(calibration.R) << "T" << to_cv(calibration.T);
+  cv::FileStorage file = open_for_writing(path);
+  write_size(file, calibration.left.camera);
+  write_lens(file, "K1", "D1", calibration.left);
+  write_lens(file, "K2", "D2", calibration.right);
+  file << "R" << cv::Mat(to_cv(calibration.R)) << "T" << cv::Mat(to_cv(calibration.T));
   if (calibration.rectification) write_rectification(file, *calibration.rectification);
-  const Mounting& mounting = calibration.mounting;
-  if (mounting.down) file << "down" << to_cv(*mounting.down);
-  if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
+  write_mounting(file, calibration.mounting);
+}
+
+void write_depth_calibration(const std::string& path, const DepthCalibration& calibration) {
+  cv::FileStorage file = open_for_writing(path);
+  write_size(file, calibration.color.camera);
+  write_lens(file, "camera_matrix", "distortion_coefficients", calibration.color);
+  file << "depth_scale" << calibration.depth_scale_m;
+  write_mounting(file, calibration.mounting);
 }
 
 DepthCalibration read_depth_calibration(const std::string& path) {

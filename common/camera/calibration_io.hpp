@@ -27,6 +27,10 @@ void write_stereo_calibration(const std::string& path, const StereoCalibration& 
 /// optionally down, sensor_height_m.
 DepthCalibration read_depth_calibration(const std::string& path);
 
+/// Writes a calibration as read_depth_calibration reads it. Throws
+/// std::runtime_error where the file cannot be written.
+void write_depth_calibration(const std::string& path, const DepthCalibration& calibration);
+
 /// Distance between the optical centres along the left camera's x axis [m].
 double baseline_m(const StereoCalibration& calibration);
 

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "common/camera/opencv_conversion.hpp"
 #include "common/formatted.hpp"
 #include "common/median.hpp"
 #include "modules/reconstructor/rectifier.hpp"
@@ -54,17 +55,6 @@ LensCalibration to_calibration(const Lens& lens, const cv::Size& size) {
   calibration.camera = {size.width, size.height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
   calibration.distortion.assign(lens.D.begin<double>(), lens.D.end<double>());
   return calibration;
-}
-
-cv::Matx33d camera_matrix(const PinholeCamera& camera) {
-  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-}
-
-template <int kRows, int kColumns>
-cv::Mat to_cv(const Eigen::Matrix<double, kRows, kColumns>& matrix) {
-  cv::Mat result;
-  cv::eigen2cv(matrix, result);
-  return result;
 }
 
 double epipolar_rms_px(const CommonPoints& common, const StereoCalibration& calibration) {
@@ -241,8 +231,8 @@ std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels
                                           const Eigen::Matrix<double, 3, 4>& P) {
   const std::vector<cv::Point2d> exact(pixels.begin(), pixels.end());
   std::vector<cv::Point2d> result;
-  cv::undistortPoints(exact, result, camera_matrix(lens.camera), lens.distortion, to_cv<3, 3>(R),
-                      to_cv<3, 4>(P));
+  cv::undistortPoints(exact, result, camera_matrix(lens.camera), lens.distortion, to_cv(R),
+                      to_cv(P));
   return result;
 }
 

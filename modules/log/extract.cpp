@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/camera/calibration_io.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
@@ -107,7 +108,7 @@ class FrameWriter {
     const auto message = decode<stereo_calibration_t>(event.data);
     if (has_calibration_ || options_.what != Extracted::kImages || message.sensor != sensor_)
       return;
-    write_calibration(calibration_path(), lcm_io::from_message(message));
+    write_stereo_calibration(calibration_path(), lcm_io::from_message(message));
     has_calibration_ = true;
   }
 
@@ -130,7 +131,7 @@ class FrameWriter {
 
   void write_depth(const depth_images_t& message, const std::string& path) {
     if (!has_calibration_)
-      write_calibration(calibration_path(), lcm_io::from_message(message).calibration);
+      write_depth_calibration(calibration_path(), lcm_io::from_message(message).calibration);
     has_calibration_ = true;
     if (message.color.width > 0) write_picture(path + "_color", message.color);
     write_picture(path + "_depth", message.depth);

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/core/eigen.hpp>
 #include <stdexcept>
 
 #include "common/camera/encoded_image.hpp"
@@ -25,37 +23,6 @@ void write_bytes(const std::string& path, const void* bytes, std::size_t size) {
 
 void write_text(const std::string& path, const std::string& text) {
   write_bytes(path, text.data(), text.size());
-}
-
-cv::FileStorage opened(const std::string& path) {
-  cv::FileStorage file(path, cv::FileStorage::WRITE);
-  if (!file.isOpened()) throw std::runtime_error(path + ": cannot be written");
-  return file;
-}
-
-cv::Mat camera_matrix(const PinholeCamera& camera) {
-  return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-}
-
-cv::Mat distortion(const LensCalibration& lens) {
-  return lens.distortion.empty() ? cv::Mat(cv::Mat::zeros(1, 5, CV_64F))
-                                 : cv::Mat(lens.distortion, true).t();
-}
-
-template <class Matrix>
-cv::Mat to_cv(const Matrix& matrix) {
-  cv::Mat result;
-  cv::eigen2cv(matrix, result);
-  return result;
-}
-
-void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
-  file << "image_width" << camera.width << "image_height" << camera.height;
-}
-
-void write_mounting(cv::FileStorage& file, const Mounting& mounting) {
-  if (mounting.down) file << "down" << to_cv(*mounting.down);
-  if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
 }
 
 Json vector_json(const Eigen::Vector3f& vector) {
@@ -133,28 +100,6 @@ void write_cloud(const std::string& path, const Cloud& cloud) {
   write_text(path, "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " +
                        number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number +
                        "\nDATA binary\n" + records);
-}
-
-void write_calibration(const std::string& path, const StereoCalibration& calibration) {
-  cv::FileStorage file = opened(path);
-  write_size(file, calibration.left.camera);
-  file << "K1" << camera_matrix(calibration.left.camera) << "D1" << distortion(calibration.left);
-  file << "K2" << camera_matrix(calibration.right.camera) << "D2" << distortion(calibration.right);
-  file << "R" << to_cv(calibration.R) << "T" << to_cv(calibration.T);
-  if (const auto& rectification = calibration.rectification) {
-    file << "R1" << to_cv(rectification->R1) << "R2" << to_cv(rectification->R2);
-    file << "P1" << to_cv(rectification->P1) << "P2" << to_cv(rectification->P2);
-  }
-  write_mounting(file, calibration.mounting);
-}
-
-void write_calibration(const std::string& path, const DepthCalibration& calibration) {
-  cv::FileStorage file = opened(path);
-  write_size(file, calibration.color.camera);
-  file << "camera_matrix" << camera_matrix(calibration.color.camera);
-  file << "distortion_coefficients" << distortion(calibration.color);
-  file << "depth_scale" << calibration.depth_scale_m;
-  write_mounting(file, calibration.mounting);
 }
 
 void write_truth(const std::string& path, const BodyPoses& truth) {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "common/camera/calibration.hpp"
 #include "common/cloud/cloud.hpp"
 #include "common/human_model/body_pose.hpp"
 
@@ -18,9 +17,6 @@ namespace limbcast::logs {
 void write_picture(const std::string& path, const image_t& image);
 /// Binary PCD of the points that are there, with rgb where the cloud has colours.
 void write_cloud(const std::string& path, const Cloud& cloud);
-/// OpenCV YAML with the names of cv::stereoCalibrate and cv::stereoRectify.
-void write_calibration(const std::string& path, const StereoCalibration& calibration);
-void write_calibration(const std::string& path, const DepthCalibration& calibration);
 /// NAME_gt.json as read_ground_truth reads it.
 void write_truth(const std::string& path, const BodyPoses& truth);
 /// timestamps.csv, in the order of `stamps`.

@@ -7,19 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/camera/opencv_conversion.hpp"
+
 namespace limbcast::reconstructor {
 namespace {
-
-cv::Matx33d camera_matrix(const PinholeCamera& camera) {
-  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-}
-
-template <int kRows, int kColumns>
-cv::Matx<double, kRows, kColumns> to_cv(const Eigen::Matrix<double, kRows, kColumns>& matrix) {
-  cv::Matx<double, kRows, kColumns> result;
-  cv::eigen2cv(matrix, result);
-  return result;
-}
 
 /// Baseline of P2 = [f 0 cx -f*B; ...]; throws where the pair is no left and right one.
 double checked_baseline_m(const Rectification& rectification) {
@@ -82,7 +73,7 @@ Rectification compute_rectification(const StereoCalibration& calibration) {
   cv::Mat R1, R2, P1, P2, Q;
   cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
                     camera_matrix(calibration.right.camera), calibration.right.distortion, size,
-                    to_cv<3, 3>(calibration.R), to_cv<3, 1>(calibration.T), R1, R2, P1, P2, Q,
+                    to_cv(calibration.R), to_cv(calibration.T), R1, R2, P1, P2, Q,
                     cv::CALIB_ZERO_DISPARITY, 0.0, size);
   Rectification result;
   cv::cv2eigen(R1, result.R1);
@@ -108,7 +99,7 @@ Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
   const auto make_maps = [&](const LensCalibration& lens, const Eigen::Matrix3d& rotation) {
     Maps maps;
     if (is_identity(lens, rotation, full)) return maps;
-    cv::initUndistortRectifyMap(camera_matrix(lens.camera), lens.distortion, to_cv<3, 3>(rotation),
+    cv::initUndistortRectifyMap(camera_matrix(lens.camera), lens.distortion, to_cv(rotation),
                                 camera_matrix(full), cv::Size(full.width, full.height), CV_16SC2,
                                 maps.xy, maps.fraction);
     return maps;

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "common/camera/calibration_io.hpp"
 #include "common/config/options.hpp"
 #include "modules/simulate/truth.hpp"
 
@@ -24,46 +25,6 @@ cv::Mat millimetres(const cv::Mat& depth_m) {
   cv::Mat result;
   if (!depth_m.empty()) depth_m.convertTo(result, CV_16U, 1000.0);
   return result;
-}
-
-cv::Mat camera_matrix(const PinholeCamera& camera) {
-  return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-}
-
-void write_stereo_calibration(cv::FileStorage& file, const PinholeCamera& camera,
-                              double baseline_m) {
-  const cv::Mat matrix = camera_matrix(camera);
-  const cv::Mat identity = cv::Mat::eye(3, 3, CV_64F);
-  const cv::Mat translation = (cv::Mat_<double>(3, 1) << -baseline_m, 0, 0);
-  const cv::Mat no_distortion = cv::Mat::zeros(1, 5, CV_64F);
-  cv::Mat left_projection;
-  cv::hconcat(matrix, cv::Mat::zeros(3, 1, CV_64F), left_projection);
-  cv::Mat right_projection = left_projection.clone();
-  right_projection.at<double>(0, 3) = -camera.fx * baseline_m;
-  cv::Mat q = cv::Mat::eye(4, 4, CV_64F);
-  q.at<double>(0, 3) = -camera.cx;
-  q.at<double>(1, 3) = -camera.cy;
-  q.at<double>(2, 2) = 0.0;
-  q.at<double>(2, 3) = camera.fx;
-  q.at<double>(3, 2) = 1.0 / baseline_m;
-  q.at<double>(3, 3) = 0.0;
-  file << "K1" << matrix << "D1" << no_distortion << "K2" << matrix << "D2" << no_distortion;
-  file << "R" << identity << "T" << translation;
-  file << "R1" << identity << "R2" << identity << "P1" << left_projection << "P2"
-       << right_projection << "Q" << q;
-}
-
-void write_calibration(const std::string& path, const SimulatorParams& params) {
-  cv::FileStorage file(path, cv::FileStorage::WRITE);
-  if (!file.isOpened()) throw config::UsageError(path + ": cannot be written");
-  file << "image_width" << params.camera.width << "image_height" << params.camera.height;
-  if (params.sensor == SensorKind::kStereo) {
-    write_stereo_calibration(file, params.camera, params.baseline_m);
-    return;
-  }
-  file << "camera_matrix" << camera_matrix(params.camera);
-  file << "distortion_coefficients" << cv::Mat(cv::Mat::zeros(1, 5, CV_64F)) << "depth_scale"
-       << 0.001;
 }
 
 void write_pcd(const std::string& path, const LaserScan& scan) {
@@ -90,7 +51,11 @@ FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& param
   if (error || !timestamps_)
     throw config::UsageError(folder + ": cannot write there; choose another --output");
   timestamps_ << "name,utime,down_x,down_y,down_z\n";
-  if (params.sensor != SensorKind::kLaser) write_calibration(folder + "/calibration.yml", params);
+  const std::string calibration = folder + "/calibration.yml";
+  if (params.sensor == SensorKind::kStereo)
+    write_stereo_calibration(calibration, stereo_calibration(params));
+  else if (params.sensor != SensorKind::kLaser)
+    write_depth_calibration(calibration, depth_calibration(params));
 }
 
 std::string FrameFolder::path(const SimulatedFrame& frame, const std::string& ending) const {

@@ -27,21 +27,6 @@ Stamp stamp_of(const SimulatedFrame& frame, const std::string& sensor,
   return stamp;
 }
 
-StereoCalibration stereo_calibration(const SimulatorParams& params) {
-  StereoCalibration calibration;
-  calibration.left.camera = calibration.right.camera = params.camera;
-  calibration.T.x() = -params.baseline_m;
-  Rectification rectification;
-  rectification.R1.setIdentity();
-  rectification.R2.setIdentity();
-  const PinholeCamera& camera = params.camera;
-  rectification.P1 << camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0;
-  rectification.P2 = rectification.P1;
-  rectification.P2(0, 3) = -camera.fx * params.baseline_m;
-  calibration.rectification = rectification;
-  return calibration;
-}
-
 DepthImages depth_images(const SimulatedFrame& frame, const Stamp& stamp) {
   DepthImages images;
   images.stamp = stamp;
@@ -79,9 +64,8 @@ FrameMessages::FrameMessages(const SimulatorParams& params, const SimulatedFrame
     cloud_ = lcm_io::to_message(laser_cloud(frame.laser, params.laser, stamp));
   } else {
     stamp = stamp_of(frame, sensor, "color_optical", sequence);
-    DepthCalibration calibration;
-    calibration.color.camera = params.camera;
-    depth_ = lcm_io::to_message(depth_images(frame, stamp), calibration, kJpegQuality);
+    depth_ =
+        lcm_io::to_message(depth_images(frame, stamp), depth_calibration(params), kJpegQuality);
   }
   truth_ = lcm_io::to_message(truth_poses(frame.scenario, view, stamp));
 }

@@ -49,6 +49,27 @@ void simulate_camera(const SimulatorParams& params, Rng& rng, SimulatedFrame& fr
 
 }  // namespace
 
+StereoCalibration stereo_calibration(const SimulatorParams& params) {
+  StereoCalibration calibration;
+  calibration.left.camera = calibration.right.camera = params.camera;
+  calibration.T.x() = -params.baseline_m;
+  Rectification rectification;
+  rectification.R1.setIdentity();
+  rectification.R2.setIdentity();
+  const PinholeCamera& camera = params.camera;
+  rectification.P1 << camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0;
+  rectification.P2 = rectification.P1;
+  rectification.P2(0, 3) = -camera.fx * params.baseline_m;
+  calibration.rectification = rectification;
+  return calibration;
+}
+
+DepthCalibration depth_calibration(const SimulatorParams& params) {
+  DepthCalibration calibration;
+  calibration.color.camera = params.camera;
+  return calibration;
+}
+
 SimulatedFrame simulate_frame(const SimulatorParams& params, std::uint64_t seed, int index) {
   SimulatedFrame frame;
   frame.scenario = draw_scenario(params.scenario, params.camera, seed, index);

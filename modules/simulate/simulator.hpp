@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/camera/pinhole_camera.hpp"
+#include "common/camera/calibration.hpp"
 #include "modules/simulate/depth_sensor.hpp"
 #include "modules/simulate/laser.hpp"
 #include "modules/simulate/scenario.hpp"
@@ -33,6 +33,10 @@ struct SimulatorParams {
   LaserParams laser;
   double gravity_sigma_deg = 0.35;  ///< of the told gravity, about each axis: about 0.5 in all
 };
+
+/// What the simulated camera would be calibrated to.
+StereoCalibration stereo_calibration(const SimulatorParams& params);
+DepthCalibration depth_calibration(const SimulatorParams& params);
 
 /// All that one frame holds; what the sensor does not give is empty.
 struct SimulatedFrame {

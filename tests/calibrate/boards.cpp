@@ -2,15 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "common/camera/opencv_conversion.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-cv::Matx33d camera_matrix(const PinholeCamera& camera) {
-  return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-}
 
 /// Turns the board about its middle, which stands at `middle_m`.
 BoardPose pose_about_middle(const Board& board, const cv::Vec3d& rotation,
@@ -23,14 +20,11 @@ BoardPose pose_about_middle(const Board& board, const cv::Vec3d& rotation,
 }
 
 BoardPose in_right_camera(const BoardPose& pose, const StereoCalibration& cameras) {
-  cv::Mat R;
-  cv::Mat T;
-  cv::eigen2cv(cameras.R, R);
-  cv::eigen2cv(cameras.T, T);
   cv::Mat turn;
-  cv::Rodrigues(R, turn);
+  cv::Rodrigues(to_cv(cameras.R), turn);
   BoardPose result;
-  cv::composeRT(pose.rotation, pose.translation_m, turn, T, result.rotation, result.translation_m);
+  cv::composeRT(pose.rotation, pose.translation_m, turn, to_cv(cameras.T), result.rotation,
+                result.translation_m);
   return result;
 }
 

@@ -288,7 +288,7 @@ TEST(WrittenStereoCalibration, IsReadAsItWas) {
   EXPECT_EQ(read.left.camera.fy, 501.0);
   EXPECT_EQ(read.left.distortion, written.left.distortion);
   EXPECT_EQ(read.right.camera.cx, 321.0);
-  EXPECT_TRUE(read.right.distortion.empty());
+  EXPECT_EQ(read.right.distortion, std::vector<double>(5, 0.0));
   EXPECT_EQ(read.T, written.T);
   ASSERT_TRUE(read.rectification);
   EXPECT_EQ(read.rectification->P2, rectification.P2);
