@@ -37,9 +37,18 @@ struct StereoCalibration {
   Mounting mounting;
 };
 
-/// A depth camera whose depth image is registered to its colour image.
+/// A depth camera that stands beside the colour camera: p_color = R * p_depth + T [m].
+struct DepthCamera {
+  LensCalibration lens;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d T = Eigen::Vector3d::Zero();
+};
+
+/// A camera that gives colour and depth.
 struct DepthCalibration {
   LensCalibration color;
+  /// None: the depth image is registered to the colour image already.
+  std::optional<DepthCamera> depth_camera;
   double depth_scale_m = 0.001;  ///< metres for one unit of the 16-bit depth image
   Mounting mounting;
 };

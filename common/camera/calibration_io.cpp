@@ -64,10 +64,11 @@ std::vector<double> read_distortion(const YamlReader& yaml, const std::string& k
             "must be 0, 4, 5, 8, 12 or 14 (fisheye models are not supported)");
 }
 
+/// `prefix`: of the keys of the image's size.
 LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
-                          const std::string& distortion_key) {
-  const int width = read_size(yaml, "image_width");
-  const int height = read_size(yaml, "image_height");
+                          const std::string& distortion_key, const std::string& prefix = "") {
+  const int width = read_size(yaml, prefix + "image_width");
+  const int height = read_size(yaml, prefix + "image_height");
   LensCalibration lens;
   lens.camera = checked_pinhole(yaml, matrix_key, width, height,
                                 Eigen::Matrix3d(yaml.matrix(matrix_key, 3, 3)));
@@ -151,6 +152,19 @@ LensCalibration read_ros_lens(const YamlReader& yaml) {
     }
   }
   return read_lens(yaml, "camera_matrix", "distortion_coefficients");
+}
+
+std::optional<DepthCamera> read_depth_camera(const YamlReader& yaml) {
+  if (!yaml.has("depth_camera_matrix")) return std::nullopt;
+  DepthCamera camera;
+  camera.lens = read_lens(yaml, "depth_camera_matrix", "depth_distortion_coefficients", "depth_");
+  camera.R = read_rotation(yaml, "R");
+  camera.T = yaml.matrix("T", 3, 1);
+  if (camera.T.norm() > kLargestBaseline_m) {
+    yaml.fail("T", "puts the cameras " + text_of(camera.T.norm()) + " m apart, must be < 5",
+              "write it in metres, not millimetres");
+  }
+  return camera;
 }
 
 StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right) {
@@ -284,6 +298,7 @@ DepthCalibration read_depth_calibration(const std::string& path) {
   const YamlReader yaml(path);
   DepthCalibration calibration;
   calibration.color = read_ros_lens(yaml);
+  calibration.depth_camera = read_depth_camera(yaml);
   if (yaml.has("depth_scale")) calibration.depth_scale_m = yaml.number("depth_scale");
   if (calibration.depth_scale_m <= 0.0 || calibration.depth_scale_m > 0.1) {
     yaml.fail("depth_scale", "is " + text_of(calibration.depth_scale_m),

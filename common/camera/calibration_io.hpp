@@ -24,10 +24,11 @@ void write_stereo_calibration(const std::string& path, const StereoCalibration& 
 
 /// Reads a depth camera's calibration: image_width, image_height, camera_matrix,
 /// distortion_coefficients (OpenCV or ROS YAML), depth_scale (metres a unit, default 0.001), and
-/// optionally down, sensor_height_m.
+/// optionally down, sensor_height_m. Where depth is not registered to colour: depth_image_width,
+/// depth_image_height, depth_camera_matrix, depth_distortion_coefficients, R, T.
 DepthCalibration read_depth_calibration(const std::string& path);
 
-/// Writes a calibration as read_depth_calibration reads it. Throws
+/// Writes a calibration of registered depth as read_depth_calibration reads it. Throws
 /// std::runtime_error where the file cannot be written.
 void write_depth_calibration(const std::string& path, const DepthCalibration& calibration);
 

@@ -9,12 +9,13 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-void check_size(const PairFormat& format, const EncodedImage& image, const std::string& name,
+/// A width and height of 0 stand for any size.
+void check_size(int width, int height, const EncodedImage& image, const std::string& name,
                 const std::string& where) {
-  const bool any = format.width == 0 && format.height == 0;
-  if (any || (image.width == format.width && image.height == format.height)) return;
+  const bool any = width == 0 && height == 0;
+  if (any || (image.width == width && image.height == height)) return;
   throw InputError(where + ": the " + name + " image is " + size_text(image.width, image.height) +
-                   ", the calibration is for " + size_text(format.width, format.height) +
+                   ", the calibration is for " + size_text(width, height) +
                    "; give the calibration of this camera and image size");
 }
 
@@ -22,13 +23,15 @@ void check_size(const PairFormat& format, const EncodedImage& image, const std::
 
 void check_pair(const PairFormat& format, const EncodedImage& first, const EncodedImage& second,
                 const std::string& where) {
-  if (first.width != second.width || first.height != second.height) {
+  check_size(format.width, format.height, first, format.names.first, where);
+  if (format.second_width > 0) {
+    check_size(format.second_width, format.second_height, second, format.names.second, where);
+  } else if (first.width != second.width || first.height != second.height) {
     throw InputError(where + ": the " + format.names.first + " image is " +
                      size_text(first.width, first.height) + ", the " + format.names.second +
                      " one " + size_text(second.width, second.height) +
                      "; both must be of equal size");
   }
-  check_size(format, first, format.names.first, where);
   if (format.second_is_depth && (second.bits != 16 || second.channels != 1)) {
     throw InputError(where + ": the depth image has " + std::to_string(second.channels) +
                      " channels of " + std::to_string(second.bits) +

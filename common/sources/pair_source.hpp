@@ -28,6 +28,7 @@ struct PairFormat {
   std::string sensor;            ///< Stamp::sensor
   std::string frame;             ///< Stamp::frame
   int jpeg_quality = 95;  ///< of pictures that are no JPEG yet, 1 to 100; 0: PNG, without loss
+  int second_width = 0, second_height = 0;  ///< of the second image [px]; 0: as the first
 };
 
 using PairSource = FrameSource<FramePair>;

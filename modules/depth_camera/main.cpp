@@ -6,6 +6,7 @@
 #include "common/lcm_io/stamp_codec.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
+#include "modules/depth_camera/registration.hpp"
 
 namespace limbcast::depth_camera {
 namespace {
@@ -21,14 +22,18 @@ void declare(config::Section& section, Options& options) {
   section.add("images-channel", options.images_channel, "channel of the frames");
 }
 
-depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibration) {
+/// `registration`: nothing where the depth is registered to the colour image already.
+depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibration,
+                          const std::optional<DepthRegistration>& registration) {
   depth_images_t message{};
   message.stamp = lcm_io::to_message(frame.stamp);
   message.lens = lcm_io::to_message(calibration.color);
   message.depth_scale_m = calibration.depth_scale_m;
   message.mounting = lcm_io::to_message(calibration.mounting);
   message.color = lcm_io::to_message(frame.first);
-  message.depth = lcm_io::to_message(frame.second);
+  message.depth = lcm_io::to_message(
+      registration ? encode_png(registration->registered(decode_image(frame.second, "depth image")))
+                   : frame.second);
   return message;
 }
 
@@ -40,15 +45,21 @@ void run(const Options& options, const config::CommonOptions& common) {
   }
   const DepthCalibration calibration = read_depth_calibration(options.process.calibration);
   const std::string& sensor = options.process.sensor;
-  const PairFormat format{{"color", "depth"},
-                          true,
-                          calibration.color.camera.width,
-                          calibration.color.camera.height,
-                          sensor,
-                          sensor + "/color_optical",
-                          options.process.source.jpeg_quality};
+  PairFormat format{{"color", "depth"},
+                    true,
+                    calibration.color.camera.width,
+                    calibration.color.camera.height,
+                    sensor,
+                    sensor + "/color_optical",
+                    options.process.source.jpeg_quality};
+  std::optional<DepthRegistration> registration;
+  if (calibration.depth_camera) {
+    registration.emplace(calibration);
+    format.second_width = calibration.depth_camera->lens.camera.width;
+    format.second_height = calibration.depth_camera->lens.camera.height;
+  }
   const auto send = [&](Outlet& outlet, const FramePair& frame) {
-    outlet.send_frame(options.images_channel, to_message(frame, calibration));
+    outlet.send_frame(options.images_channel, to_message(frame, calibration, registration));
   };
   run_source("depth_camera", options.process, common, format, calibration.mounting, send);
 }

@@ -12,6 +12,7 @@
 namespace limbcast::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -66,6 +67,63 @@ TEST_F(DepthCameraProgram, WritesFramesWithTheirCalibration) {
   EXPECT_EQ(frame.calibration.color.camera.fy, 51.0);
   EXPECT_EQ(frame.calibration.depth_scale_m, 0.0005);
   EXPECT_EQ(cv::norm(frame.images.depth, depth_ramp(), cv::NORM_INF), 0.0);
+}
+
+constexpr const char* kDepthLens =
+    "depth_image_width: 32\ndepth_image_height: 24\n"
+    "depth_camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+    "   data: [ 25., 0., 16., 0., 25.5, 12., 0., 0., 1. ]\n"
+    "R: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+    "   data: [ 1., 0., 0., 0., 1., 0., 0., 0., 1. ]\n"
+    "T: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ -0.04, 0., 0. ]\n";
+
+TEST_F(DepthCameraProgram, RegistersDepthToColorWhereTheCalibrationTellsHow) {
+  std::ofstream(calibration_, std::ios::app) << kDepthLens;
+  testing::write_bytes(folder_ + "/a_depth.png",
+                       encode_png(cv::Mat(24, 32, CV_16UC1, cv::Scalar(4000))));  // 2 m
+
+  const RunResult result = write_log({"--source", folder_});
+
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto frame = lcm_io::from_message(lcm_io::decode<depth_images_t>(events_of(log_)[0].data));
+  ASSERT_EQ(frame.images.depth.size(), cv::Size(kWidth, kHeight));
+  EXPECT_EQ(frame.images.depth.at<std::uint16_t>(24, 32), 4000);
+  // By 50 px * 0.04 m / 2 m = 1 px to the left: the right border sees nothing.
+  EXPECT_EQ(frame.images.depth.at<std::uint16_t>(24, 63), 0);
+}
+
+TEST_F(DepthCameraProgram, RefusesDepthOfAnotherSizeThanItsCalibrations) {
+  std::ofstream(calibration_, std::ios::app) << kDepthLens;
+  EXPECT_THAT(error({"--source", folder_}),
+              HasSubstr("the depth image is 64x48, the calibration is for 32x24"));
+}
+
+TEST_F(DepthCameraProgram, TakesColorAndDepthFromTwoPipelines) {
+  const std::string size = "width=64,height=48,framerate=20/1";
+  const RunResult result = write_log(
+      {"--source", "gst:videotestsrc num-buffers=20 is-live=true ! video/x-raw," + size,
+       "--source-depth",
+       "gst:videotestsrc num-buffers=20 is-live=true ! video/x-raw,format=GRAY16_LE," + size,
+       "--pair-tolerance-ms", "40", "--reopen=false"});
+  if (result.output.find("cannot be started") != std::string::npos)
+    GTEST_SKIP() << "gstreamer1.0-plugins-base is absent";
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto events = events_of(log_);
+  ASSERT_FALSE(events.empty());
+  const auto frame = lcm_io::from_message(lcm_io::decode<depth_images_t>(events[0].data));
+  EXPECT_EQ(frame.images.depth.type(), CV_16UC1);
+  double largest = 0.0;
+  cv::minMaxLoc(frame.images.depth, nullptr, &largest);
+  EXPECT_GT(largest, 255.0);  // white bars: all 16 bits came through
+}
+
+TEST_F(DepthCameraProgram, EndsWithCode2WithoutItsDevices) {
+  EXPECT_THAT(error({"--source", "/dev/video987", "--source-depth", "/dev/video986"}),
+              HasSubstr("/dev/video987: No such file or directory; is the camera plugged in?"));
+  // Without the plug-in the pipeline waits for a source, with it there is no device.
+  EXPECT_THAT(error({"--source", "gst:openni2src sourcetype=color", "--source-depth",
+                     "gst:openni2src sourcetype=depth", "--open-timeout-s", "2"}),
+              AllOf(HasSubstr("gst:openni2src sourcetype=color: "), HasSubstr("gst-launch-1.0")));
 }
 
 TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
