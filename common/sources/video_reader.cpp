@@ -11,7 +11,9 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 #include <utility>
+#include <vector>
 
+#include "common/config/log.hpp"
 #include "common/input_error.hpp"
 #include "common/sources/capture_time.hpp"
 
@@ -63,19 +65,39 @@ void check_device(const std::string& device) {
   throw InputError(device + ": " + std::strerror(errno) + "; " + advice);
 }
 
-void apply(const CameraSettings& settings, cv::VideoCapture& capture) {
-  if (settings.width > 0) capture.set(cv::CAP_PROP_FRAME_WIDTH, settings.width);
-  if (settings.height > 0) capture.set(cv::CAP_PROP_FRAME_HEIGHT, settings.height);
-  if (settings.rate_hz > 0.0) capture.set(cv::CAP_PROP_FPS, settings.rate_hz);
+/// What of the settings a driver alone can do, for messages; empty: nothing.
+std::string driver_settings(const CameraSettings& settings) {
+  std::string names;
+  const auto add = [&](bool wanted, const char* name) {
+    if (wanted) names += (names.empty() ? "" : ", ") + std::string(name);
+  };
+  add(settings.width > 0, "camera-width");
+  add(settings.height > 0, "camera-height");
+  add(settings.rate_hz > 0.0, "camera-rate");
+  add(std::isfinite(settings.exposure), "exposure");
+  add(std::isfinite(settings.gain), "gain");
+  return names;
+}
+
+/// Returns the names of what the driver refused.
+std::vector<std::string> apply(const CameraSettings& settings, cv::VideoCapture& capture) {
+  std::vector<std::string> refused;
+  const auto set = [&](const char* name, int property, double value) {
+    if (!capture.set(property, value)) refused.emplace_back(name);
+  };
+  if (settings.width > 0) set("camera-width", cv::CAP_PROP_FRAME_WIDTH, settings.width);
+  if (settings.height > 0) set("camera-height", cv::CAP_PROP_FRAME_HEIGHT, settings.height);
+  if (settings.rate_hz > 0.0) set("camera-rate", cv::CAP_PROP_FPS, settings.rate_hz);
   if (std::isfinite(settings.exposure)) {
     constexpr double kManualExposure = 1.0;  // V4L2_EXPOSURE_MANUAL
     capture.set(cv::CAP_PROP_AUTO_EXPOSURE, kManualExposure);
-    capture.set(cv::CAP_PROP_EXPOSURE, settings.exposure);
+    set("exposure", cv::CAP_PROP_EXPOSURE, settings.exposure);
   }
-  if (std::isfinite(settings.gain)) capture.set(cv::CAP_PROP_GAIN, settings.gain);
+  if (std::isfinite(settings.gain)) set("gain", cv::CAP_PROP_GAIN, settings.gain);
   if (settings.raw_depth) capture.set(cv::CAP_PROP_CONVERT_RGB, 0.0);
   // The driver's queue must not hold old frames.
   capture.set(cv::CAP_PROP_BUFFERSIZE, 2.0);
+  return refused;
 }
 
 cv::VideoCapture open_device(const std::string& device, const CameraSettings& settings) {
@@ -88,7 +110,10 @@ cv::VideoCapture open_device(const std::string& device, const CameraSettings& se
     throw InputError(
         device + ": gives no pictures; is it a camera's first device? See v4l2-ctl --list-devices");
   }
-  apply(settings, capture);
+  for (const std::string& setting : apply(settings, capture))
+    config::log(config::LogLevel::kWarning, device + ": refuses '" + setting +
+                                                "'; what it takes: v4l2-ctl -d " + device +
+                                                " --list-ctrls --list-formats-ext");
   return capture;
 }
 
@@ -111,6 +136,15 @@ cv::VideoCapture open_stream(const std::string& url) {
   cv::VideoCapture capture(url, cv::CAP_FFMPEG);
   if (!capture.isOpened()) throw InputError(url + ": cannot be opened; is it sending?");
   return capture;
+}
+
+/// "; name from smallest to largest" of a control that the device has; else empty.
+std::string describe_control(int file, std::uint32_t id, const std::string& name) {
+  v4l2_queryctrl control{};
+  control.id = id;
+  if (ioctl(file, VIDIOC_QUERYCTRL, &control) != 0) return "";
+  return "; " + name + " " + std::to_string(control.minimum) + " to " +
+         std::to_string(control.maximum);
 }
 
 std::string describe_format(int file, v4l2_fmtdesc& format) {
@@ -136,6 +170,11 @@ std::unique_ptr<FrameReader> open_camera(const std::string& source,
   // What OpenCV warns of is no fault, or told again by the caller.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   if (is_device(source)) return std::make_unique<VideoReader>(open_device(source, settings));
+  const std::string unheeded = driver_settings(settings);
+  if (!unheeded.empty()) {
+    throw InputError(source + ": " + unheeded + " can be set for /dev/videoN only; " +
+                     "here say it in the pipeline, or to the camera");
+  }
   if (starts_with(source, kPipelinePrefix)) {
     return std::make_unique<VideoReader>(
         open_pipeline(source.substr(kPipelinePrefix.size()), settings.raw_depth));
@@ -156,6 +195,8 @@ std::string camera_abilities(const std::string& source) {
   for (; ioctl(file, VIDIOC_ENUM_FMT, &format) == 0; ++format.index) {
     text += "; " + describe_format(file, format);
   }
+  text += describe_control(file, V4L2_CID_EXPOSURE_ABSOLUTE, "exposure");
+  text += describe_control(file, V4L2_CID_GAIN, "gain");
   ::close(file);
   return text;
 }

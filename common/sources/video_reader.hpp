@@ -21,10 +21,12 @@ struct CameraSettings {
 bool is_camera(const std::string& source);
 
 /// Opens a V4L2 device ("/dev/video0"), a GStreamer pipeline ("gst:v4l2src ! ...", a missing
-/// appsink is added) or a network stream ("rtsp://..."). Throws InputError naming what to do.
+/// appsink is added) or a network stream ("rtsp://..."). What the driver of a device refuses of the
+/// settings is logged; pipelines and streams take none. Throws InputError naming what to do.
 std::unique_ptr<FrameReader> open_camera(const std::string& source, const CameraSettings& settings);
 
-/// For the log at start: driver's name, formats, sizes of a V4L2 device; empty for other cameras.
+/// For the log at start: driver's name, formats, sizes, exposure and gain of a V4L2 device; empty
+/// for other cameras.
 std::string camera_abilities(const std::string& source);
 
 }  // namespace limbcast

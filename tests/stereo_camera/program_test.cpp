@@ -251,14 +251,16 @@ class CameraThatStalls : public PublishingStereoCamera {
   void SetUp() override {
     if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
     ASSERT_EQ(mkfifo(pipe_.c_str(), 0600), 0);
-    file_ = open(pipe_.c_str(), O_RDWR | O_CLOEXEC);
+    plug_in();
     start({"--source",
            "gst:filesrc location=" + pipe_ +
                " blocksize=18432 ! rawvideoparse format=bgr width=128" +
                " height=48 framerate=30/1",
-           "--reopen=false", "--stall-timeout-s=0.2"});
+           "--reopen=" + std::string(reopens() ? "true" : "false")});
   }
+  virtual bool reopens() const { return false; }
   void TearDown() override { end(); }
+  void plug_in() { file_ = open(pipe_.c_str(), O_RDWR | O_CLOEXEC); }
   void give_picture() const {
     const std::vector<std::uint8_t> picture(kPictureBytes, 99);
     ASSERT_EQ(write(file_, picture.data(), picture.size()), static_cast<ssize_t>(picture.size()));
@@ -278,7 +280,7 @@ TEST_F(CameraThatStalls, IsToldInTheStatusAndGoesOn) {
   ASSERT_TRUE(wait_for([this] { return !images_.empty(); }));
 
   ASSERT_TRUE(wait_for([this] { return status_ && status_->state == "failing"; }));
-  EXPECT_THAT(status_->last_error, HasSubstr("stalled, no frame for 200 ms"));
+  EXPECT_THAT(status_->last_error, HasSubstr("stalled, no frame for 2000 ms"));
 
   const std::size_t before = images_.size();
   ASSERT_TRUE(wait_for([&] {
@@ -302,6 +304,92 @@ TEST_F(CameraThatStalls, EndsTheProgramWithTheStream) {
   end();
   EXPECT_EQ(camera_->wait(), 0) << camera_->output();
   EXPECT_THAT(camera_->output(), HasSubstr("gives no frames any more"));
+}
+
+class CameraThatIsUnplugged : public CameraThatStalls {
+ protected:
+  bool reopens() const override { return true; }
+};
+
+TEST_F(CameraThatIsUnplugged, IsOpenedAgainWhenItComesBack) {
+  give_picture();
+  give_picture();
+  ASSERT_TRUE(wait_for([this] { return !images_.empty(); }));
+  end();
+  ASSERT_TRUE(wait_for([this] { return status_ && status_->state == "failing"; }));
+  EXPECT_THAT(status_->last_error, HasSubstr("gives no frames any more (unplugged or ended)"));
+
+  plug_in();
+  const std::size_t before = images_.size();
+  // It must be fed on, or it is told to stall.
+  ASSERT_TRUE(wait_for([&] {
+    give_picture();
+    return images_.size() > before && status_->state == "running";
+  }));
+  EXPECT_THAT(status_->note, HasSubstr("1 reopened"));
+  EXPECT_GT(images_.back().stamp.sequence, images_.front().stamp.sequence);
+  EXPECT_EQ(stop(), 0) << camera_->output();
+}
+
+/// Two cameras, each a pipeline that plays the pictures of one side round and round.
+class TwoLiveCameras : public PublishingStereoCamera {
+ protected:
+  void SetUp() override {
+    if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
+    write_pairs(folder_, 10, 100'000);
+  }
+  std::string camera(const std::string& side) const {
+    return "gst:multifilesrc location=" + folder_ + "/frame_%d_" + side +
+           ".jpg loop=true stop-index=9 caps=image/jpeg,framerate=10/1 ! jpegdec ! identity "
+           "sync=true";
+  }
+};
+
+TEST_F(TwoLiveCameras, ArePairedByTheMomentOfCapture) {
+  // Half a frame: where they began does not matter.
+  start(
+      {"--source", camera("left"), "--source-right", camera("right"), "--pair-tolerance-ms", "50"});
+  ASSERT_TRUE(wait_for([this] { return images_.size() >= 12 && status_; }));
+  EXPECT_EQ(stop(), 0) << camera_->output();
+  EXPECT_THAT(camera_->output(), HasSubstr("(live, paired by time)"));
+  for (const stereo_images_t& message : images_) {
+    const StereoImages pair = lcm_io::from_message(message);
+    EXPECT_EQ(pair.left.size(), pair.right.size());
+  }
+  for (std::size_t i = 1; i < images_.size(); ++i)
+    EXPECT_GT(images_[i].stamp.utime, images_[i - 1].stamp.utime);
+}
+
+TEST_F(TwoLiveCameras, HaveFramesOutOfToleranceDroppedAndCounted) {
+  start(
+      {"--source", camera("left"), "--source-right", camera("right"), "--pair-tolerance-ms", "0"});
+  const auto has_unpaired = [](const module_status_t& status) {
+    return status.note.find(" unpaired") != std::string::npos &&
+           status.note.find(" 0 unpaired") == std::string::npos;
+  };
+  ASSERT_TRUE(wait_for([&] { return status_ && has_unpaired(*status_); }));
+  EXPECT_EQ(stop(), 0) << camera_->output();
+}
+
+TEST_F(TwoLiveCameras, OfOtherSizeThanTheCalibrationEndTheProgram) {
+  const std::string wide = "gst:videotestsrc ! video/x-raw,width=80,height=48";
+  start({"--source", wide, "--source-right", wide, "--pair-tolerance-ms", "100"});
+  EXPECT_EQ(camera_->wait(), kWrongInput);
+  EXPECT_THAT(camera_->output(),
+              HasSubstr("the left image is 80x48, the calibration is for 64x48"));
+}
+
+TEST_F(TwoLiveCameras, WithoutTheSecondEndTheProgram) {
+  start({"--source", camera("left"), "--source-right", "gst:v4l2src device=/dev/video987"});
+  EXPECT_EQ(camera_->wait(), kWrongInput);
+  EXPECT_THAT(camera_->output(), HasSubstr("/dev/video987: cannot be started"));
+}
+
+TEST_F(TwoLiveCameras, TakeNoSettingsThatOnlyADriverCanDo) {
+  start({"--source", camera("left"), "--source-right", camera("right"), "--exposure", "20",
+         "--gain", "3"});
+  EXPECT_EQ(camera_->wait(), kWrongInput);
+  EXPECT_THAT(camera_->output(), HasSubstr("exposure, gain can be set for /dev/videoN only"));
 }
 
 TEST_F(StereoCameraProgram, WritesLogsOfTheRecordings) {
