@@ -114,6 +114,29 @@ std::string text_of(const std::optional<double>& value) {
   return text;
 }
 
+/// Distances one after the other at which poses are right.
+struct Stretch {
+  int rows = 0;
+  double from_m = 0.0, to_m = 0.0;
+};
+
+/// A distance beyond one at which poses are wrong does not count as reached.
+Stretch longest_stretch(const std::vector<ReportRow>& rows, double right_share) {
+  Stretch longest;
+  Stretch current;
+  for (const ReportRow& row : rows) {
+    if (!row.joints_percent || *row.joints_percent < 100.0 * right_share) {
+      current = {};
+      continue;
+    }
+    if (current.rows == 0) current.from_m = row.distance_m;
+    current.to_m = row.distance_m;
+    ++current.rows;
+    if (current.rows > longest.rows) longest = current;
+  }
+  return longest;
+}
+
 }  // namespace
 
 double sigma_z_m(const SimulatorParams& params, double distance_m) {
@@ -164,8 +187,6 @@ void print_report(const std::vector<ReportRow>& rows, const ReportParams& report
   out << "distance  sigma of distance  points on person  people found  joints within 10 cm  mean "
          "error  postures right"
          "  pointing median\n";
-  std::optional<double> first_right;
-  std::optional<double> last_right;
   for (const ReportRow& row : rows) {
     char text[200];
     std::snprintf(text, sizeof(text),
@@ -175,16 +196,14 @@ void print_report(const std::vector<ReportRow>& rows, const ReportParams& report
                   text_of(row.joint_error_cm).c_str(), text_of(row.right_percent).c_str(),
                   text_of(row.pointing_deg).c_str());
     out << text;
-    const bool right = row.joints_percent && *row.joints_percent >= 100.0 * report.right_share;
-    if (right && !first_right) first_right = row.distance_m;
-    if (right) last_right = row.distance_m;
   }
+  const Stretch stretch = longest_stretch(rows, report.right_share);
   char text[160];
-  if (first_right) {
+  if (stretch.rows > 0) {
     std::snprintf(
         text, sizeof(text),
         "Poses are right (%.0f %% of the visible joints within 10 cm) from %.1f to %.1f m.\n",
-        100.0 * report.right_share, *first_right, *last_right);
+        100.0 * report.right_share, stretch.from_m, stretch.to_m);
   } else {
     std::snprintf(text, sizeof(text),
                   "Poses are right (%.0f %% of the visible joints within 10 cm) at no distance.\n",

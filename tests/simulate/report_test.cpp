@@ -39,6 +39,28 @@ TEST(Report, SaysFromWhereToWherePosesAreRight) {
   EXPECT_THAT(out.str(), ::testing::HasSubstr("from 2.0 to 3.0 m"));
 }
 
+TEST(Report, PromisesNothingBeyondADistanceWherePosesAreWrong) {
+  std::vector<ReportRow> rows(5);
+  for (int i = 0; i < 5; ++i) {
+    rows[i].distance_m = 1.0 + i;
+    rows[i].joints_percent = i == 2 ? 80.0 : 98.0;
+  }
+  rows[4].joints_percent = 50.0;
+  std::ostringstream out;
+
+  print_report(rows, {}, out);
+
+  EXPECT_THAT(out.str(), ::testing::HasSubstr("from 1.0 to 2.0 m"));
+}
+
+TEST(Report, SaysWherePosesAreRightAtNoDistance) {
+  std::vector<ReportRow> rows(2);
+  rows[0].joints_percent = 90.0;
+  std::ostringstream out;
+  print_report(rows, {}, out);
+  EXPECT_THAT(out.str(), ::testing::HasSubstr("at no distance"));
+}
+
 TEST(Report, NamesTheProgramThatIsMissing) {
   SimulatorParams params;
   params.camera = {160, 120, 130.0, 130.0, 79.5, 59.5};

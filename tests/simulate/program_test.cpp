@@ -1,0 +1,98 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <limbcast/body_poses_t.hpp>
+#include <limbcast/depth_images_t.hpp>
+#include <limbcast/point_cloud_t.hpp>
+#include <limbcast/stereo_calibration_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
+
+#include "common/lcm_io/bus.hpp"
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::test {
+namespace {
+
+using lcm_io::Keep;
+
+/// How often a wait looks whether the program ended.
+constexpr std::chrono::milliseconds kLook{200};
+
+std::vector<std::string> command(const std::string& sensor,
+                                 const std::vector<std::string>& options) {
+  std::vector<std::string> words = {program("limbcast-simulate"),
+                                    "--sensor",
+                                    sensor,
+                                    "--frames",
+                                    "2",
+                                    "--width-px",
+                                    "160",
+                                    "--height-px",
+                                    "120",
+                                    "--focal-px",
+                                    "130",
+                                    "--rings",
+                                    "32",
+                                    "--azimuth-step-deg",
+                                    "1"};
+  words.insert(words.end(), options.begin(), options.end());
+  return words;
+}
+
+class SimulateProgram : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SimulateProgram, WritesTheSameLogAgainAndAnotherWithAnotherSeed) {
+  const std::string folder = temporary_folder("logs");
+  const auto log_of = [&](const std::string& name, const std::string& seed) {
+    const std::string path = folder + "/" + name;
+    const RunResult result =
+        run(command(GetParam(), {"--log", path, "--seed", seed, "--set", "sequence"}));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string first = log_of("first.log", "4");
+  EXPECT_FALSE(first.empty());
+  EXPECT_TRUE(first == log_of("again.log", "4"));
+  EXPECT_FALSE(first == log_of("other.log", "5"));
+}
+
+/// What is heard while the program runs round and round through its frames.
+TEST_P(SimulateProgram, PublishesItsFramesAndTheirTruthLive) {
+  const std::string url = private_lcm_url();
+  lcm_io::Bus bus(url);
+  const std::string sensor = GetParam();
+  int frames = 0;
+  int calibrations = 0;
+  std::vector<body_poses_t> truths;
+  const auto count_frame = [&](const auto&) { ++frames; };
+  if (sensor == "stereo") bus.subscribe<stereo_images_t>("STEREO_IMAGES", Keep::kAll, count_frame);
+  if (sensor == "depth") bus.subscribe<depth_images_t>("DEPTH_IMAGES", Keep::kAll, count_frame);
+  if (sensor == "laser") bus.subscribe<point_cloud_t>("POINT_CLOUD", Keep::kAll, count_frame);
+  bus.subscribe<stereo_calibration_t>("STEREO_CALIBRATION", Keep::kAll,
+                                      [&](const stereo_calibration_t&) { ++calibrations; });
+  bus.subscribe<body_poses_t>("GROUND_TRUTH", Keep::kAll,
+                              [&](const body_poses_t& poses) { truths.push_back(poses); });
+  ChildProcess simulate(command(sensor, {"--loop", "--rate", "20", "--lcm-url", url}),
+                        temporary_folder("live") + "/output.txt");
+
+  while (frames < 5 || truths.size() < 5) {
+    bus.handle(kLook);
+    ASSERT_TRUE(simulate.running()) << simulate.output();
+  }
+
+  EXPECT_EQ(calibrations > 0, sensor == "stereo");
+  EXPECT_EQ(truths[0].num_persons, 1);
+  EXPECT_LT(truths[0].stamp.utime, truths[4].stamp.utime);
+  simulate.signal(SIGTERM);
+  EXPECT_EQ(simulate.wait(), 0) << simulate.output();
+}
+
+INSTANTIATE_TEST_SUITE_P(Sensors, SimulateProgram, ::testing::Values("stereo", "depth", "laser"),
+                         [](const auto& sensor) { return std::string(sensor.param); });
+
+}  // namespace
+}  // namespace limbcast::test
