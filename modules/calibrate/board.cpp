@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <opencv2/aruco/charuco.hpp>
@@ -39,6 +40,16 @@ BoardPoints numbered(std::vector<cv::Point2f> pixels) {
   return points;
 }
 
+/// Window of cv::cornerSubPix: 11 x 11 px as in OpenCV's calibration example, at least 5 x 5.
+constexpr int kHalfWindow_px = 5, kLeastHalfWindow_px = 2;
+
+void refine_corners(const cv::Mat& grey, std::vector<cv::Point2f>& corners, int half_window_px) {
+  constexpr int kIterations = 50;
+  constexpr double kStep_px = 0.005;
+  cv::cornerSubPix(grey, corners, {half_window_px, half_window_px}, {-1, -1},
+                   {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kStep_px});
+}
+
 /// The sector-based detector (Duda and Frese 2018) is the more exact one and stands blur and
 /// glare; the older one finds some boards at a slant that it misses.
 std::optional<BoardPoints> find_chessboard(const cv::Mat& grey, const Board& board) {
@@ -47,10 +58,7 @@ std::optional<BoardPoints> find_chessboard(const cv::Mat& grey, const Board& boa
   std::vector<cv::Point2f> corners;
   if (cv::findChessboardCornersSB(grey, lattice(board), corners, kFlags)) return numbered(corners);
   if (!cv::findChessboardCorners(grey, lattice(board), corners)) return std::nullopt;
-  constexpr int kHalfWindow_px = 5, kIterations = 30;
-  constexpr double kStep_px = 0.01;
-  cv::cornerSubPix(grey, corners, {kHalfWindow_px, kHalfWindow_px}, {-1, -1},
-                   {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kStep_px});
+  refine_corners(grey, corners, kHalfWindow_px);
   return numbered(corners);
 }
 
@@ -58,6 +66,19 @@ std::optional<BoardPoints> find_circles(const cv::Mat& grey, const Board& board)
   std::vector<cv::Point2f> centres;
   if (!cv::findCirclesGrid(grey, lattice(board), centres)) return std::nullopt;
   return numbered(centres);
+}
+
+/// Half the width of the largest window about a corner that holds nothing of the markers beside it
+/// [px]; they stand half of the difference between square and marker away.
+int free_half_window_px(const std::vector<std::vector<cv::Point2f>>& markers, const Board& board) {
+  double smallest_side_px = std::numeric_limits<double>::infinity();
+  for (const std::vector<cv::Point2f>& marker : markers) {
+    for (std::size_t i = 0; i < marker.size(); ++i)
+      smallest_side_px =
+          std::min(smallest_side_px, cv::norm(marker[i] - marker[(i + 1) % marker.size()]));
+  }
+  const double gap_squares = 0.5 * (board.square_m - board.marker_m) / board.square_m;
+  return static_cast<int>(gap_squares * smallest_side_px * board.square_m / board.marker_m);
 }
 
 std::optional<BoardPoints> find_charuco(const cv::Mat& grey, const Board& board) {
@@ -70,6 +91,10 @@ std::optional<BoardPoints> find_charuco(const cv::Mat& grey, const Board& board)
   cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, charuco, points.pixels,
                                        points.ids);
   if (points.ids.empty()) return std::nullopt;
+  // OpenCV stops at a step of 0.1 px.
+  refine_corners(
+      grey, points.pixels,
+      std::clamp(free_half_window_px(markers, board), kLeastHalfWindow_px, kHalfWindow_px));
   return points;
 }
 
@@ -89,8 +114,9 @@ cv::Mat draw_circles(const Board& board, int square_px) {
   constexpr int kFractionBits = 4, kUnit = 1 << kFractionBits;
   const int radius = cvRound(0.5 * kCircleShare * square_px * kUnit);
   for (int id = 0; id < board.num_points(); ++id) {
-    const cv::Point2d centre(square_px * (id % board.columns + 0.5) - 0.5,
-                             square_px * (id / board.columns + 0.5) - 0.5);
+    const int column = id % board.columns;
+    const int row = id / board.columns;
+    const cv::Point2d centre(square_px * (column + 0.5) - 0.5, square_px * (row + 0.5) - 0.5);
     cv::circle(image, {cvRound(centre.x * kUnit), cvRound(centre.y * kUnit)}, radius, 0, cv::FILLED,
                cv::LINE_AA, kFractionBits);
   }
@@ -106,8 +132,9 @@ cv::Mat draw_charuco(const Board& board, int square_px) {
 }  // namespace
 
 cv::Point3f Board::point_m(int id) const {
-  return {static_cast<float>(square_m * (id % columns)),
-          static_cast<float>(square_m * (id / columns)), 0.0F};
+  const int column = id % columns;
+  const int row = id / columns;
+  return {static_cast<float>(square_m * column), static_cast<float>(square_m * row), 0.0F};
 }
 
 void declare(config::Section& section, BoardOptions& options) {

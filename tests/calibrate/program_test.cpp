@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <regex>
 
 #include "common/camera/calibration_io.hpp"
 #include "tests/calibrate/boards.hpp"
@@ -81,6 +83,62 @@ TEST(CalibrateProgram, CalibratesRenderedCamerasAndNamesBadPairs) {
   const StereoCalibration found = read_stereo_calibration(out / "calibration.yml");
   EXPECT_NEAR(found.left.camera.fx, 531.2, 0.003 * 531.2);
   EXPECT_NEAR(found.T.norm(), true_cameras().T.norm(), 0.005 * 0.12);
+}
+
+/// Pairs as a video shows them: a board that is held still at one place after the other; the last
+/// picture is blurred by motion.
+std::vector<GreyPair> board_video(int places, int frames_still) {
+  std::vector<GreyPair> frames;
+  for (const BoardPose& pose : varied_poses({}, places)) {
+    GreyPair pair = render_board({}, pose, true_cameras(), "");
+    for (int i = 0; i < frames_still; ++i) frames.push_back(pair);
+  }
+  for (cv::Mat* image : {&frames.back().left, &frames.back().right}) {
+    cv::Mat blurred;  // the pixels are those of the frame before
+    cv::blur(*image, blurred, {25, 1});
+    *image = blurred;
+  }
+  return frames;
+}
+
+void expect_true_cameras(const StereoCalibration& found) {
+  EXPECT_NEAR(found.left.camera.fx, 531.2, 0.003 * 531.2);
+  EXPECT_NEAR(found.right.camera.fx, 529.4, 0.003 * 529.4);
+  EXPECT_NEAR(found.T.norm(), true_cameras().T.norm(), 0.005 * 0.12);
+}
+
+std::string numbered(const std::string& stem, std::size_t number) {
+  const std::string digits = std::to_string(number);
+  return stem + std::string(4 - digits.size(), '0') + digits;
+}
+
+TEST(CalibrateProgram, CalibratesFromALogOfAMovingBoard) {
+  const TemporaryFolder folder;
+  std::size_t number = 0;
+  for (GreyPair pair : board_video(12, 2)) {
+    pair.name = numbered("frame_", number++);
+    write_pair(folder, pair);
+  }
+  const TemporaryFolder out;
+  write_stereo_calibration(out / "any.yml", true_cameras());
+  ASSERT_EQ(run_program("limbcast-stereo-camera",
+                        {"--source", folder.path(), "--calibration", out / "any.yml", "--log",
+                         out / "in.log", "--jpeg-quality", "0"})
+                .exit_code,
+            0);
+
+  const Outcome outcome = run_program("limbcast-calibrate",
+                                      {"--source", out / "in.log", "--output", out / "found.yml"});
+
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  // Of each place the second frame, when the board is known to stand still: 0.1 s, 0.3 s, ...
+  const std::regex taken("([0-9]+): view [0-9]+ taken");
+  int views = 0;
+  for (std::sregex_iterator view(outcome.err.begin(), outcome.err.end(), taken), end; view != end;
+       ++view, ++views)
+    EXPECT_EQ(std::stol((*view)[1]) % 200'000, 100'000) << view->str();
+  EXPECT_GE(views, 8);
+  expect_true_cameras(read_stereo_calibration(out / "found.yml"));
 }
 
 TEST(CalibrateProgram, RefusesPicturesWithoutBoard) {

@@ -1,0 +1,89 @@
+#include "modules/calibrate/views.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "common/input_error.hpp"
+#include "tests/calibrate/boards.hpp"
+#include "tests/common/camera/temporary_folder.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// What becomes of pictures of one board pose that is carried about.
+class Views : public ::testing::Test {
+ protected:
+  /// The board `right_px` further to the right in the image than at first.
+  GreyPair picture(const std::string& name, double right_px = 0.0) const {
+    BoardPose pose = varied_poses(board_, 1)[0];
+    pose.translation_m[0] += right_px * pose.translation_m[2] / true_cameras().left.camera.fx;
+    return render_board(board_, pose, true_cameras(), name);
+  }
+  std::string reason_for(ViewCollector& collector, const GreyPair& pair) const {
+    return collector.add(pair) ? "" : collector.rejected().back().reason;
+  }
+  Board board_;
+};
+
+TEST_F(Views, OfAVideoAreTakenWhereTheBoardStandsStillAtANewPlace) {
+  ViewCollector collector(board_, true);
+  EXPECT_THAT(reason_for(collector, picture("a")), HasSubstr("just come into view"));
+  EXPECT_EQ(reason_for(collector, picture("b", 0.5)), "");
+  EXPECT_THAT(reason_for(collector, picture("c", 0.6)), HasSubstr("stands where it stood in b"));
+  EXPECT_THAT(reason_for(collector, picture("d", 40.0)), HasSubstr("since the frame before"));
+  EXPECT_EQ(reason_for(collector, picture("e", 41.0)), "");
+  ASSERT_EQ(collector.views().size(), 2U);
+  EXPECT_EQ(collector.views()[1].name, "e");
+}
+
+TEST_F(Views, OfAVideoWaitForAFrameAfterOneWithoutBoard) {
+  ViewCollector collector(board_, true);
+  collector.add(picture("a"));
+  const cv::Mat wall(480, 640, CV_8UC1, cv::Scalar(90));
+  EXPECT_THAT(reason_for(collector, {"wall", wall, wall}), HasSubstr("not found in the left"));
+  EXPECT_THAT(reason_for(collector, picture("b")), HasSubstr("just come into view"));
+}
+
+TEST_F(Views, OfSingleShotsAreTakenAtOnce) {
+  ViewCollector collector(board_, false);
+  EXPECT_EQ(reason_for(collector, picture("a")), "");
+}
+
+TEST_F(Views, AreRefusedWhereAnImageIsBlurred) {
+  GreyPair pair = picture("a");
+  cv::GaussianBlur(pair.right, pair.right, {}, 3.0);
+  ViewCollector collector(board_, false);
+  // From 10 to 90 % a Gaussian edge is 2.56 sigma wide.
+  EXPECT_THAT(reason_for(collector, pair),
+              ::testing::ContainsRegex(
+                  "blurred: edges in the right image are ([6-9]|10)\\.. px wide \\(limit 5.0\\)"));
+}
+
+TEST_F(Views, AreRefusedWhereFewPointsAreInBothImages) {
+  Board board;
+  board.kind = BoardKind::kCharuco;
+  GreyPair pair = render_board(board, varied_poses(board, 1)[0], true_cameras(), "a");
+  // The right camera sees but the board's edge.
+  pair.right(cv::Rect(0, 0, 250, 480)).setTo(120);
+  ViewCollector collector(board, false);
+  EXPECT_THAT(reason_for(collector, pair),
+              ::testing::AnyOf(HasSubstr("points of the board, 12 are needed"),
+                               HasSubstr("not found in the right image")));
+}
+
+TEST_F(Views, OfOtherSizeEndTheProgram) {
+  ViewCollector collector(board_, false);
+  collector.add(picture("a"));
+  const cv::Mat small(48, 64, CV_8UC1, cv::Scalar(90));
+  EXPECT_THAT(testing::error_of<InputError>([&] {
+                collector.add({"b", small, small});
+              }),
+              HasSubstr("b: an image is 64x48, the first one 640x480"));
+}
+
+}  // namespace
+}  // namespace limbcast::calibrate
