@@ -24,6 +24,7 @@ DisparityImage match(const cv::Mat& left, const cv::Mat& right, const MatcherPar
   cv::Mat1f disparity_px = match_semi_global(grey_left, grey_right, params.semi_global);
   remove_speckles(params, disparity_px);
   fill_gaps(params.gaps, disparity_px);
+  trim_silhouettes(left, params.silhouettes, disparity_px);
   refine_disparities(grey_left, grey_right, params.subpixel, disparity_px);
   const cv::Mat1b confidence = disparity_px > 0.0F;
   return {disparity_px, confidence};

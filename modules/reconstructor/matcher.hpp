@@ -5,6 +5,7 @@
 #include "modules/reconstructor/disparity.hpp"
 #include "modules/reconstructor/gaps.hpp"
 #include "modules/reconstructor/semi_global.hpp"
+#include "modules/reconstructor/silhouettes.hpp"
 #include "modules/reconstructor/subpixel.hpp"
 
 namespace limbcast::reconstructor {
@@ -15,6 +16,7 @@ struct MatcherParams {
   int speckle_size = 100;
   /// Step in disparity that cuts [px].
   double speckle_step_px = 2.0;
+  SilhouetteParams silhouettes;
   GapParams gaps;
   SubpixelParams subpixel;
 };

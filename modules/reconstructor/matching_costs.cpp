@@ -25,11 +25,12 @@ inline Byte count_in_halves(Byte bits) {
 }
 
 LIMBCAST_SIMD void count_differing_bits(const PlaneRows& left, const PlaneRows& right_mirrored,
-                                        int width, const Byte* __restrict no_match,
+                                        int width, const Byte* least, const Byte* even_least,
                                         int num_registers, Byte* __restrict costs) {
   const int size = num_registers * kCostsInARegister;  // the compiler sees a loop without a rest
   for (int u = 0; u < width; ++u, costs += size) {
     const Byte l0 = left[0][u], l1 = left[1][u], l2 = left[2][u];
+    const Byte* __restrict least_here = (l0 | l1 | l2) == 0 ? even_least : least;
     const int match = width - 1 - u;
     const Byte* __restrict r0 = right_mirrored[0] + match;
     const Byte* __restrict r1 = right_mirrored[1] + match;
@@ -41,18 +42,22 @@ LIMBCAST_SIMD void count_differing_bits(const PlaneRows& left, const PlaneRows& 
       const Byte sum = count_in_halves(static_cast<Byte>(either ^ x2));
       const Byte carry = count_in_halves(static_cast<Byte>((x0 & x1) | (either & x2)));
       const auto halves = static_cast<Byte>(sum + carry + carry);
-      costs[d] = std::max(static_cast<Byte>((halves & 0x0f) + (halves >> 4)), no_match[d]);
+      costs[d] = std::max(static_cast<Byte>((halves & 0x0f) + (halves >> 4)), least_here[d]);
     }
   }
 }
 
 }  // namespace
 
-MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities)
+MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities,
+                             int even_px_per_bit)
     : left_(census_of(left)),
       right_mirrored_(census_of(right)),
-      no_match_(cv::alignSize(num_disparities, kCostsInARegister), kNoMatch) {
-  std::fill_n(no_match_.begin(), num_disparities, Byte{0});
+      least_(cv::alignSize(num_disparities, kCostsInARegister), kNoMatch),
+      even_least_(least_) {
+  std::fill_n(least_.begin(), num_disparities, Byte{0});
+  for (int d = 0; d < num_disparities; ++d)
+    even_least_[d] = static_cast<Byte>(std::min(d / even_px_per_bit, Census::kNumBits));
   for (cv::Mat1b& plane : right_mirrored_.planes) {
     cv::flip(plane, plane, 1);
     cv::copyMakeBorder(plane, plane, 0, 0, 0, size(), cv::BORDER_REPLICATE);
@@ -61,7 +66,7 @@ MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int 
 
 void MatchingCosts::compute_row(int v, Byte* costs) const {
   count_differing_bits(rows_of(left_, v), rows_of(right_mirrored_, v), left_.planes[0].cols,
-                       no_match_.data(), size() / kCostsInARegister, costs);
+                       least_.data(), even_least_.data(), size() / kCostsInARegister, costs);
 }
 
 }  // namespace limbcast::reconstructor

@@ -18,16 +18,19 @@ constexpr std::uint8_t kNoMatch = 127;
 /// Costs of matching pixels of the left image with pixels of the right one.
 class MatchingCosts {
  public:
-  MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities);
+  /// `even_px_per_bit`: see SemiGlobalParams.
+  MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities,
+                int even_px_per_bit);
   /// Bytes of a pixel's costs.
-  int size() const { return static_cast<int>(no_match_.size()); }
+  int size() const { return static_cast<int>(least_.size()); }
   /// Differing bits of the census of each pixel u of row v and the right image's pixel u - d, at
   /// costs[u * size() + d]. Left of the image its border is repeated.
   void compute_row(int v, std::uint8_t* costs) const;
 
  private:
-  Census left_, right_mirrored_;        ///< mirrored, so that disparities grow with the address
-  std::vector<std::uint8_t> no_match_;  ///< what a cost is at least
+  Census left_, right_mirrored_;  ///< mirrored, so that disparities grow with the address
+  /// What the costs are at least, and where the left image is even.
+  std::vector<std::uint8_t> least_, even_least_;
 };
 
 }  // namespace limbcast::reconstructor

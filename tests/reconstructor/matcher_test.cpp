@@ -61,6 +61,27 @@ TEST(Match, KeepsTheOutlineOfASquareBeforeAWall) {
   EXPECT_NEAR(cv::countNonZero(is_near), 159 * 159, 0.05 * 159 * 159);
 }
 
+TEST(Match, TakesTheEvenWallBesideASquareForTheWall) {
+  // Only the wall's margins have a texture; the darker square stands before its bare middle.
+  const test::Texture texture;
+  const cv::Rect square(240, 160, 160, 160), bare(120, 80, 400, 320);
+  const auto wall = [&](int u, int v) { return bare.contains({u, v}) ? 128.0 : texture(u, v); };
+  RectifiedPair pair{cv::Mat1b(480, 640), cv::Mat1b(480, 640)};
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const auto seen_at = [&](int square_px, int wall_px) {
+        return cv::saturate_cast<uchar>(square.contains({u + square_px, v})
+                                            ? 0.5 * texture(u + square_px, v)
+                                            : wall(u + wall_px, v));
+      };
+      pair.left.at<uchar>(v, u) = seen_at(0, 0);
+      pair.right.at<uchar>(v, u) = seen_at(40, 10);
+    }
+  }
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  EXPECT_NEAR(cv::countNonZero(found > 30.0F), square.area(), 0.05 * square.area());
+}
+
 TEST(Match, LeavesWhatOnlyTheLeftCameraSees) {
   const RectifiedPair pair = test::pair_of([](int, int) { return 32.0; });
   const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
