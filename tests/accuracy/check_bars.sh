@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Fails when a figure of method=refined is worse than its bar in bars.json: on the recordings of logs/, and on the
+# checking half of the data with truth where there is one.
+#   tests/accuracy/check_bars.sh [DATA_DIR]
+# DATA_DIR: default ../shared/data. Needs build/release/bin; prints each figure beside its bar.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+data=${1:-../shared/data}
+bin=build/release/bin
+bars=$PWD/tests/accuracy/bars.json
+out=build/accuracy
+mkdir -p "$out"
+
+failed=0
+# check NAME: the figures in NAME.refined.json against the bars of NAME
+check() {
+  local key least most value
+  while IFS=$'\t' read -r key least most; do
+    value=$(jq -r --arg key "$key" '.figures[$key].value' "$out/$1.refined.json")
+    if jq -en --argjson value "$value" --argjson least "$least" --argjson most "$most" \
+      '$value != null and ($least == null or $value >= $least) and ($most == null or $value <= $most)' >/dev/null; then
+      echo "ok      $1 $key: $value (at least $least, at most $most)"
+    else
+      echo "WORSE   $1 $key: $value (at least $least, at most $most)"
+      failed=1
+    fi
+  done < <(jq -r --arg name "$1" '.[$name] | to_entries[] | [.key, (.value.at_least // "null"), (.value.at_most // "null")] | @tsv' "$bars")
+}
+
+for log in logs/*.log; do
+  name=$(basename "$log")
+  "$bin/limbcast-replay" "$log" "$out/$name.refined.log" --log-level warning
+  "$bin/limbcast-evaluate" "$out/$name.refined.log" --json "$out/$name.refined.json" --log-level error >"$out/$name.txt"
+  check "$name"
+done
+if [ -d "$data/stereo_dev" ]; then
+  tests/accuracy/figures.sh refined "$data"
+  for name in one_person natural groups nobody rgbd; do check "$name"; done
+else
+  echo "$data/stereo_dev is missing: only the recordings of logs/ were checked"
+fi
+exit "$failed"
