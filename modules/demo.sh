@@ -108,6 +108,7 @@ echo "$posed of $sent frames have their poses"
 if [ "$posed" -lt "$sent" ]; then
   # Live, a busy machine skips frames rather than fall behind; a replay skips none.
   echo "(this machine was too busy for $rate frames a second; the rest follows in a replay of the recording)"
+  cmake --build --preset release --target limbcast-replay
   "$bin/limbcast-replay" "$run_log" "$output/replayed.log"
   run_log=$output/replayed.log
 fi
