@@ -79,9 +79,16 @@ void VirtualDisplay::double_click(cv::Point pixel) const {
 }
 
 cv::Mat VirtualDisplay::screenshot() const {
+  // The first attempt fails now and then on a busy machine while windows move.
+  constexpr int kMostAttempts = 30;
   const std::string file = folder_ + "/screen.png";
-  tool({"import", "-window", "root", file});
-  return cv::imread(file);
+  cv::Mat picture;
+  for (int i = 0; i < kMostAttempts && picture.empty(); ++i) {
+    tool({"import", "-window", "root", file});
+    picture = cv::imread(file);
+  }
+  if (picture.empty()) throw std::runtime_error(file + ": no picture of the screen");
+  return picture;
 }
 
 }  // namespace limbcast::test
