@@ -11,10 +11,19 @@
 namespace limbcast::test {
 namespace {
 
-/// The number that Xvfb writes once programs can connect.
-std::string first_line(int file) {
+/// The next line; empty at the end.
+std::string next_line(int file) {
   std::string line;
   for (char c = 0; read(file, &c, 1) == 1 && c != '\n';) line += c;
+  return line;
+}
+
+/// The number that Xvfb writes once programs can connect. Before it come complaints about numbers
+/// that other displays have.
+std::string display_number(int file) {
+  std::string line = next_line(file);
+  while (!line.empty() && line.find_first_not_of("0123456789") != std::string::npos)
+    line = next_line(file);
   return line;
 }
 
@@ -34,7 +43,7 @@ VirtualDisplay::VirtualDisplay() : folder_(temporary_folder("virtual_display")) 
       pipe);
   // Kept open: the server may write more.
   server_output_ = open(pipe.c_str(), O_RDONLY | O_CLOEXEC);
-  variable_ = "DISPLAY=:" + first_line(server_output_);
+  variable_ = "DISPLAY=:" + display_number(server_output_);
 }
 
 VirtualDisplay::~VirtualDisplay() {
