@@ -1,9 +1,8 @@
 #include "modules/reconstructor/drift_watch.hpp"
 
-#include <array>
 #include <chrono>
-#include <cstdio>
 
+#include "common/formatted.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
 #include "modules/reconstructor/colors.hpp"
 #include "modules/reconstructor/row_differences.hpp"
@@ -45,13 +44,11 @@ std::string DriftWatch::warning() const {
   for (const auto& [sensor, camera] : cameras_) {
     const std::optional<double> drift_px = camera.monitor.drift_px();
     if (!drift_px) continue;
-    std::array<char, 160> words{};
-    std::snprintf(words.data(), words.size(),
-                  "drifted: the rows of the two images differ by %.1f px; measure it with "
-                  "limbcast-calibrate check and calibrate again",
-                  *drift_px);
-    text.append(text.empty() ? "" : "; ").append("the calibration of '").append(sensor);
-    text.append("' has ").append(words.data());
+    text.append(text.empty() ? "" : "; ");
+    text.append(formatted(
+        "the calibration of '%s' has drifted: the rows of the two images differ by %.1f px; "
+        "measure it with limbcast-calibrate check and calibrate again",
+        sensor.c_str(), *drift_px));
   }
   return text;
 }
