@@ -62,28 +62,32 @@ float mean_near(const Lattice& lattice, const std::vector<std::int16_t>& labels,
 
 }  // namespace
 
-BodyClassifier::BodyClassifier() : BodyClassifier(unpack(kBodyNetwork)) {}
+BodyClassifier::BodyClassifier() : BodyClassifier(unpack(kBodyNetwork)) {
+  if (kBodyNetwork.inputs != kPointInputSize)
+    throw std::logic_error("body_network.inc: trained for other inputs; run train.sh");
+}
 
 BodyClassifier::BodyClassifier(Network network) : network_(std::move(network)) {}
 
-std::vector<float> point_input(const Lattice& lattice, const HeadCandidate& head, std::uint32_t i,
-                               bool mirrored) {
+PointInput point_input(const Lattice& lattice, const HeadCandidate& head, std::uint32_t i,
+                       bool mirrored) {
   PatchPlace place;
   const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
   place.u = static_cast<float>(u);
   place.v = static_cast<float>(v);
   place.depth_m = lattice.depth_m[i];
   place.mirrored = mirrored;
-  std::vector<float> input;
-  for (const PatchGrid& grid : kPointGrids) append_grid(lattice, place, grid, input);
+  PointInput input;
+  float* values = input.data();
+  for (const PatchGrid& grid : kPointGrids) values = write_grid(lattice, place, grid, values);
   Eigen::Vector3f offset = (lattice.level_m[i] - head.center_m) / kOffsetScale_m;
   if (mirrored) offset.x() = -offset.x();
   const float known = lattice.frame.ground_known ? 1.0F : 0.0F;
-  input.insert(input.end(), {offset.x(), std::abs(offset.x()), offset.y(), offset.z(),
-                             offset.norm(), known, known * lattice.level_m[i].z(),
-                             known * (head.center_m.z() - kMeanHeight_m) / kOffsetScale_m,
-                             std::log(place.depth_m / kMeanDepth_m),
-                             lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m});
+  input.tail<kPointPlaceSize>() << offset.x(), std::abs(offset.x()), offset.y(), offset.z(),
+      offset.norm(), known, known * lattice.level_m[i].z(),
+      known * (head.center_m.z() - kMeanHeight_m) / kOffsetScale_m,
+      std::log(place.depth_m / kMeanDepth_m),
+      lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m;
   return input;
 }
 
@@ -94,13 +98,8 @@ std::vector<float> BodyClassifier::body_odds(const Lattice& lattice, const HeadC
   const std::vector<std::uint32_t> asked = asked_points(lattice, labels, label);
   if (asked.empty()) return odds;
   Network::Weights inputs(static_cast<Eigen::Index>(asked.size()), network_.hidden_weights.cols());
-  for (std::size_t k = 0; k < asked.size(); ++k) {
-    const std::vector<float> input = point_input(lattice, head, asked[k], false);
-    if (static_cast<Eigen::Index>(input.size()) != inputs.cols())
-      throw std::logic_error("body_network.inc: trained for other inputs; run train.sh");
-    inputs.row(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::RowVectorXf>(input.data(), inputs.cols());
-  }
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    inputs.row(static_cast<Eigen::Index>(k)) = point_input(lattice, head, asked[k], false);
   const Eigen::VectorXf told = network_.log_odds(inputs);
   std::vector<float> asked_odds(lattice.size(), 0.0F);
   for (std::size_t k = 0; k < asked.size(); ++k)

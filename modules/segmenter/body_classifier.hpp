@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,11 @@ namespace limbcast::segmenter {
 /// The grids of depths around a point of a cluster: its own surface, and what is around it.
 inline constexpr std::array<PatchGrid, 2> kPointGrids = {
     {{5, 5, 0.06F, 0.12F, 0.15F}, {7, 7, 0.18F, 0.54F, 0.5F}}};
+
+/// Numbers that tell of the point itself: its place against the head, over the ground and in depth.
+inline constexpr int kPointPlaceSize = 10;
+inline constexpr int kPointInputSize = 2 * count_samples(kPointGrids) + kPointPlaceSize;
+using PointInput = Eigen::Matrix<float, kPointInputSize, 1>;
 
 /// Tells the points of a body from those of what it touches, by the surface around a point and by
 /// the point's place against the head: depth differences as features of body parts are from J.
@@ -35,7 +41,7 @@ class BodyClassifier {
 };
 
 /// A point of the cluster of this head, as the network reads it.
-std::vector<float> point_input(const Lattice& lattice, const HeadCandidate& head, std::uint32_t i,
-                               bool mirrored);
+PointInput point_input(const Lattice& lattice, const HeadCandidate& head, std::uint32_t i,
+                       bool mirrored);
 
 }  // namespace limbcast::segmenter

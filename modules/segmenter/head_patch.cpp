@@ -16,8 +16,8 @@ constexpr float kNoiseScale_m = 0.1F;
 
 }  // namespace
 
-void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
-                 std::vector<float>& patch) {
+float* write_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
+                  float* values) {
   const Eigen::Vector2f right(-lattice.up.y(), lattice.up.x());
   const Eigen::Vector2f middle(place.u + 0.5F, place.v + 0.5F);
   const float px_per_m = lattice.focal_px / place.depth_m * place.scale;
@@ -35,21 +35,22 @@ void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGri
       const float depth_m = inside ? lattice.depth_m[lattice.index(u, v)] : 0.0F;
       const bool measured = depth_m > 0.0F;
       const float relative = (depth_m - place.depth_m) / grid.depth_scale_m;
-      patch.push_back(measured ? std::clamp(relative, -1.0F, 1.0F) : 0.0F);
-      patch.push_back(measured ? 1.0F : inside ? 0.0F : -1.0F);
+      *values++ = measured ? std::clamp(relative, -1.0F, 1.0F) : 0.0F;
+      *values++ = measured ? 1.0F : inside ? 0.0F : -1.0F;
     }
   }
+  return values;
 }
 
 std::vector<float> sample_patch(const Lattice& lattice, const PatchPlace& place) {
-  std::vector<float> patch;
-  patch.reserve(kPatchSize);
-  for (const PatchGrid& grid : kPatchGrids) append_grid(lattice, place, grid, patch);
+  std::vector<float> patch(kPatchSize);
+  float* values = patch.data();
+  for (const PatchGrid& grid : kPatchGrids) values = write_grid(lattice, place, grid, values);
   const bool known = lattice.frame.ground_known;
-  patch.push_back(known ? (place.height_m - kMeanHeight_m) / kHeightScale_m : 0.0F);
-  patch.push_back(known ? 1.0F : 0.0F);
-  patch.push_back(std::log(place.depth_m / kMeanDepth_m));
-  patch.push_back(lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m);
+  *values++ = known ? (place.height_m - kMeanHeight_m) / kHeightScale_m : 0.0F;
+  *values++ = known ? 1.0F : 0.0F;
+  *values++ = std::log(place.depth_m / kMeanDepth_m);
+  *values++ = lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m;
   return patch;
 }
 

@@ -20,14 +20,15 @@ struct PatchGrid {
 inline constexpr std::array<PatchGrid, 3> kPatchGrids = {
     {{11, 13, 0.03F, 0.18F, 0.15F}, {13, 14, 0.075F, 0.375F, 0.3F}, {9, 13, 0.15F, 0.60F, 0.8F}}};
 
-constexpr int count_patch_samples() {
+template <std::size_t kGrids>
+constexpr int count_samples(const std::array<PatchGrid, kGrids>& grids) {
   int samples = 0;
-  for (const PatchGrid& grid : kPatchGrids) samples += grid.columns * grid.rows;
+  for (const PatchGrid& grid : grids) samples += grid.columns * grid.rows;
   return samples;
 }
 
 /// Two values a sample; the head's height, whether that is known, its distance and its noise.
-inline constexpr int kPatchSize = 2 * count_patch_samples() + 4;
+inline constexpr int kPatchSize = 2 * count_samples(kPatchGrids) + 4;
 
 /// Where and how a patch is taken; what differs from the default serves training.
 struct PatchPlace {
@@ -38,9 +39,9 @@ struct PatchPlace {
   bool mirrored = false;
 };
 
-/// Appends the depths of one grid around a place to a patch, as sample_patch tells.
-void append_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
-                 std::vector<float>& patch);
+/// Writes the depths of one grid around a place, as sample_patch tells, and returns where they end.
+float* write_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
+                  float* values);
 
 /// Depths around a candidate, grid by grid: (depth - head's) / scale within -1 to 1 or 0 where
 /// nothing was measured, then 1 where measured, 0 in a hole, -1 outside the image.

@@ -22,21 +22,16 @@ Lattice body_with_seat(float seat_width_m) {
   });
 }
 
-/// Number of the offset to the right among the inputs of a point.
-Eigen::Index offset_input(const Lattice& lattice, const HeadCandidate& head) {
-  const auto i = static_cast<std::uint32_t>(lattice.index(head.u, head.v));
-  constexpr int kAfterOffset = 10;  // the numbers that follow the grids
-  return static_cast<Eigen::Index>(point_input(lattice, head, i, false).size()) - kAfterOffset;
-}
+/// Number of the offset to the right among the inputs of a point: the first behind the grids.
+constexpr Eigen::Index kOffsetInput = kPointInputSize - kPointPlaceSize;
 
 /// Takes what lies farther to the right than `border_m` for another thing, the surer the farther:
 /// log odds of -1 at 4 cm, -2 at 12 cm beyond.
-BodyClassifier parted_at(float border_m, const Lattice& lattice, const HeadCandidate& head) {
+BodyClassifier parted_at(float border_m) {
   constexpr float kOffsetScale_m = 0.5F, kRange_m = 0.2F, kMostOdds = 6.0F;
-  const Eigen::Index offset = offset_input(lattice, head);
   Network network;
-  network.hidden_weights = Network::Weights::Zero(1, offset + 10);
-  network.hidden_weights(0, offset) = kOffsetScale_m / kRange_m;
+  network.hidden_weights = Network::Weights::Zero(1, kPointInputSize);
+  network.hidden_weights(0, kOffsetInput) = kOffsetScale_m / kRange_m;
   network.hidden_bias = Eigen::VectorXf::Constant(1, -border_m / kRange_m);
   network.output_weights = Eigen::VectorXf::Constant(1, -kMostOdds);
   return BodyClassifier(network);
@@ -50,7 +45,7 @@ struct Cut {
 Cut cut(const Lattice& lattice, float border_m) {
   const HeadCandidate head = head_at(lattice, 0.0F, 0.8F);
   JointGrowth growth(lattice, {head}, {}, {});
-  const auto unsure = cut_to_bodies(lattice, parted_at(border_m, lattice, head), {}, growth);
+  const auto unsure = cut_to_bodies(lattice, parted_at(border_m), {}, growth);
   return {growth.labels(), {unsure.begin(), unsure.end()}};
 }
 
@@ -105,8 +100,8 @@ TEST(FindPeople, LeavesOutAHeadWhoseClusterIsNearlyAllOtherThings) {
   const HeadCandidate head = head_at(lattice, 0.0F, 0.8F);
   constexpr int kPersonInputs = 19;
   const HeadClassifier sure(always(5.0F, kPatchSize), always(5.0F, kPersonInputs));
-  const BodyClassifier a_body = parted_at(0.2F, lattice, head);
-  const BodyClassifier a_wall = parted_at(-0.15F, lattice, head);
+  const BodyClassifier a_body = parted_at(0.2F);
+  const BodyClassifier a_wall = parted_at(-0.15F);
   EXPECT_EQ(find_people(lattice, {head}, sure, &a_body, {}).heads.size(), 1U);
   const FoundPeople found = find_people(lattice, {head}, sure, &a_wall, {});
   EXPECT_TRUE(found.heads.empty());
@@ -125,7 +120,7 @@ TEST(BodyClassifier, SeesAMirroredPointFromTheOtherSide) {
   const auto seen = point_input(left, head, at_left, false);
   const auto mirrored = point_input(right, head, at_right, true);
   ASSERT_EQ(seen.size(), mirrored.size());
-  for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_NEAR(seen[i], mirrored[i], 1e-4F) << i;
+  for (Eigen::Index i = 0; i < seen.size(); ++i) EXPECT_NEAR(seen[i], mirrored[i], 1e-4F) << i;
 }
 
 TEST(Network, TellsTheSameOfManyInputsAsOfEach) {

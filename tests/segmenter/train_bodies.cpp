@@ -98,7 +98,8 @@ void add_examples(const LoadedFrame& frame, const Params& params, std::mt19937& 
       std::swap(points[k], points[k + random() % (points.size() - k)]);
       const HeadCandidate& head = heads[static_cast<std::size_t>(labels[points[k]])];
       const bool mirrored = random() % 2 == 0;
-      examples.push_back({point_input(lattice, head, points[k], mirrored), positive});
+      const PointInput input = point_input(lattice, head, points[k], mirrored);
+      examples.push_back({{input.begin(), input.end()}, positive});
     }
   }
 }
