@@ -34,6 +34,7 @@ struct Options {
   ViewChannels channels;
   int every = 1, max = 0;
   double rate_hz = 5.0;
+  Orbit orbit{65.0F, 10.0F};
 };
 
 void declare(config::Section& section, Options& options) {
@@ -43,6 +44,14 @@ void declare(config::Section& section, Options& options) {
   section.add("max", options.max, "", "end after so many frames, 0 = all", {0, 1000000000});
   section.add("rate", options.rate_hz, "frames/s", "speed of the video, and of a log in a window",
               {0.1, 1000.0});
+  section.add("azimuth-deg", options.orbit.azimuth_deg, "degrees",
+              "look at cloud and poses from so far to the side: 0 the sensor, 90 right of it",
+              {-360.0F, 360.0F});
+  section.add("elevation-deg", options.orbit.elevation_deg, "degrees",
+              "and from so far above: 0 as high as the people, 90 straight above, -90 below",
+              {-90.0F, 90.0F});
+  section.add("zoom", options.orbit.zoom, "", "and so many times nearer than to see all of them",
+              {kMinZoom, kMaxZoom});
   section.add("point-cloud-channel", options.channels.point_cloud, "clouds to draw");
   section.add("segments-channel", options.channels.segments, "segments to draw");
   section.add("poses-channel", options.channels.poses,
@@ -73,7 +82,7 @@ class Output {
   void write(const std::vector<ViewFrame>& frames) {
     std::vector<DrawnFrame> drawn(frames.size());
     tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-      drawn[i] = draw_frame(frames[i]);
+      drawn[i] = draw_frame(frames[i], options_.orbit);
       if (!options_.png.empty()) write_pictures(options_.png, drawn[i]);
     });
     for (const DrawnFrame& frame : drawn)
@@ -108,7 +117,7 @@ void write_log(const Options& options, LogFrames& log, const std::vector<int>& n
 void show_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
   using Clock = std::chrono::steady_clock;
   const auto period = std::chrono::duration<double>(1.0 / options.rate_hz);
-  Window window;
+  Window window(options.orbit);
   Playback playback(static_cast<int>(numbers.size()));
   window.add_slider(static_cast<int>(numbers.size()), [&](int i) { playback.seek(i); });
   int shown = -1;
@@ -116,7 +125,7 @@ void show_log(const Options& options, LogFrames& log, const std::vector<int>& nu
   while (!playback.ended() && !lcm_io::stop_requested()) {
     if (playback.frame() != shown) {
       shown = playback.frame();
-      window.show(draw_frame(log.frame(numbers[static_cast<std::size_t>(shown)])).sheet);
+      window.show(log.frame(numbers[static_cast<std::size_t>(shown)]));
       window.move_slider(shown);
       since = Clock::now();
     }
@@ -190,7 +199,7 @@ void view_live(const Options& options, const std::string& lcm_url) {
   std::unique_ptr<Window> window;
   std::unique_ptr<Output> output;
   if (to_window(options))
-    window = std::make_unique<Window>();
+    window = std::make_unique<Window>(options.orbit);
   else
     output = std::make_unique<Output>(options);
   lcm_io::wait_for_network(lcm_url);
@@ -203,7 +212,7 @@ void view_live(const Options& options, const std::string& lcm_url) {
     if (frame && (!paused || step) && frame->number % options.every == 0) {
       ++num_drawn;
       step = false;
-      if (window) window->show(draw_frame(*frame).sheet);
+      if (window) window->show(*frame);
       if (output) output->write({*frame});
     }
     const auto command = window ? window->poll() : std::nullopt;
@@ -220,7 +229,8 @@ void run(int argc, const char* const* argv) {
   config::Parser parser(
       "limbcast-viewer",
       "Draws clouds, segments and poses: pictures, a video, or a window (space: pause, s "
-      "and a: one frame on and back, q: quit; a slider over a log).");
+      "and a: one frame on and back, q: quit; a slider over a log; drag or i j k l: look from "
+      "elsewhere, + and -: nearer and farther, r: as at the start, v: the people alone).");
   parser.add_positional("[LOG]", options.log,
                         "log made by limbcast-replay or lcm-logger; default: live");
   parser.add(section);

@@ -24,8 +24,8 @@ int codec_of(const std::string& path) {
 
 }  // namespace
 
-DrawnFrame draw_frame(const ViewFrame& frame) {
-  DrawnFrame drawn{frame.number, draw_pictures(frame), {}};
+DrawnFrame draw_frame(const ViewFrame& frame, const Orbit& orbit) {
+  DrawnFrame drawn{frame.number, draw_pictures(frame, orbit), {}};
   drawn.sheet = draw_sheet(frame, drawn.pictures);
   return drawn;
 }

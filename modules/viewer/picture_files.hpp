@@ -15,7 +15,7 @@ struct DrawnFrame {
   cv::Mat sheet;
 };
 
-DrawnFrame draw_frame(const ViewFrame& frame);
+DrawnFrame draw_frame(const ViewFrame& frame, const Orbit& orbit);
 
 /// Writes frame_00012_skeleton.png ... and frame_00012_sheet.png into `folder`. Throws
 /// std::runtime_error where a file cannot be written.

@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/imgproc.hpp>
 
+#include "common/formatted.hpp"
 #include "modules/viewer/painting.hpp"
 
 namespace limbcast::viewer {
@@ -11,7 +12,7 @@ namespace {
 
 const cv::Scalar kBackground(35, 30, 25);
 const cv::Scalar kSkinColor(255, 60, 255);
-constexpr Direction kSide{65.0F, 10.0F}, kAbove{0.0F, 75.0F};
+constexpr Orbit kAbove{0.0F, 75.0F};
 /// Distances at the two ends of the colours of the disparity picture [m].
 constexpr float kNearest = 1.0F, kFarthest = 8.0F;
 /// Lower images have no room for the scale of distances [px].
@@ -103,18 +104,25 @@ void draw_distance_scale(cv::Mat& picture) {
   }
 }
 
-cv::Mat draw_skeleton_from(const ViewFrame& frame, const Direction& direction) {
-  if (!frame.poses) return missing("poses");
-  cv::Mat picture = dark(kPictureSize);
-  const Viewpoint view = orbit_view(frame, direction, kPictureSize);
-  if (frame.cloud) draw_cloud(picture, view, *frame.cloud, true);
-  if (frame.segments) draw_segments(picture, view, *frame.segments);
-  if (frame.truth) draw_truth(picture, view, *frame.truth);
-  draw_skeletons(picture, view, *frame.poses);
-  return picture;
+std::string words(const Orbit& orbit) {
+  return formatted("%.0f degrees to the side, %.0f up", static_cast<double>(orbit.azimuth_deg),
+                   static_cast<double>(orbit.elevation_deg));
 }
 
 }  // namespace
+
+cv::Mat draw_scene(const ViewFrame& frame, const Orbit& orbit, const cv::Size& size) {
+  cv::Mat picture = dark(size);
+  const Viewpoint view = orbit_view(frame, orbit, size);
+  if (frame.cloud) draw_cloud(picture, view, *frame.cloud, true);
+  if (frame.segments) draw_segments(picture, view, *frame.segments);
+  if (frame.truth) draw_truth(picture, view, *frame.truth);
+  if (frame.poses)
+    draw_skeletons(picture, view, *frame.poses);
+  else
+    draw_text(picture, "no poses", {20, size.height / 2});
+  return picture;
+}
 
 cv::Mat draw_input(const ViewFrame& frame) {
   const auto view = sensor_view(frame);
@@ -142,10 +150,10 @@ cv::Mat draw_disparity(const ViewFrame& frame) {
   return picture;
 }
 
-cv::Mat draw_cloud_from_side(const ViewFrame& frame) {
+cv::Mat draw_whole_cloud(const ViewFrame& frame, const Orbit& orbit) {
   if (!frame.cloud) return missing("cloud");
   cv::Mat picture = dark(kPictureSize);
-  draw_cloud(picture, orbit_view(frame, kSide, kPictureSize), *frame.cloud, false);
+  draw_cloud(picture, orbit_view(frame, orbit, kPictureSize), *frame.cloud, false);
   return picture;
 }
 
@@ -164,26 +172,21 @@ cv::Mat draw_segments_in_colors(const ViewFrame& frame) {
 
 cv::Mat draw_skeleton(const ViewFrame& frame) {
   const auto view = sensor_view(frame);
-  if (!view) return draw_skeleton_from(frame, {});
+  if (!view) return draw_scene(frame, {});
   cv::Mat picture = camera_image(*frame.cloud);
   if (frame.truth) draw_truth(picture, *view, *frame.truth);
   if (frame.poses) draw_skeletons(picture, *view, *frame.poses);
   return picture;
 }
 
-cv::Mat draw_skeleton_from_side(const ViewFrame& frame) { return draw_skeleton_from(frame, kSide); }
-cv::Mat draw_skeleton_from_above(const ViewFrame& frame) {
-  return draw_skeleton_from(frame, kAbove);
-}
-
-std::vector<Picture> draw_pictures(const ViewFrame& frame) {
+std::vector<Picture> draw_pictures(const ViewFrame& frame, const Orbit& orbit) {
   return {{"input", "input, skin parts, seeds", draw_input(frame)},
           {"disparity", "disparity", draw_disparity(frame)},
-          {"cloud", "cloud from the side", draw_cloud_from_side(frame)},
+          {"cloud", "cloud, " + words(orbit), draw_whole_cloud(frame, orbit)},
           {"segments", "segments", draw_segments_in_colors(frame)},
           {"skeleton", "body poses (truth thin)", draw_skeleton(frame)},
-          {"side", "body poses from the side", draw_skeleton_from_side(frame)},
-          {"above", "body poses from above", draw_skeleton_from_above(frame)}};
+          {"scene", "body poses, " + words(orbit), draw_scene(frame, orbit)},
+          {"above", "body poses from above", draw_scene(frame, kAbove)}};
 }
 
 }  // namespace limbcast::viewer

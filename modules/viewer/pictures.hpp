@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "modules/viewer/view_frame.hpp"
+#include "modules/viewer/viewpoint.hpp"
 
 namespace limbcast::viewer {
 
 /// Size of pictures that are not in the sensor's own lattice [px].
 inline const cv::Size kPictureSize(640, 480);
+/// Size of the sheet that shows all of them [px].
+inline const cv::Size kSheetSize(1920, 720);
 
 /// One picture and its name, which is part of its file's name.
 struct Picture {
@@ -25,18 +27,17 @@ struct Picture {
 cv::Mat draw_input(const ViewFrame& frame);
 /// Inverse distance in colours, red near, blue far, black unknown (fig. 3).
 cv::Mat draw_disparity(const ViewFrame& frame);
-/// The whole cloud from the side (fig. 3).
-cv::Mat draw_cloud_from_side(const ViewFrame& frame);
+/// The whole cloud from anywhere (fig. 3).
+cv::Mat draw_whole_cloud(const ViewFrame& frame, const Orbit& orbit);
 /// Each person's cluster in a colour of its own (fig. 4).
 cv::Mat draw_segments_in_colors(const ViewFrame& frame);
 /// Body poses over the image, the truth thin beside them (fig. 6).
 cv::Mat draw_skeleton(const ViewFrame& frame);
-/// Body poses from the side and from above (fig. 6 and 7).
-cv::Mat draw_skeleton_from_side(const ViewFrame& frame);
-cv::Mat draw_skeleton_from_above(const ViewFrame& frame);
+/// Body poses among the cloud, dim, and the segments from anywhere (fig. 6 and 7).
+cv::Mat draw_scene(const ViewFrame& frame, const Orbit& orbit, const cv::Size& size = kPictureSize);
 
-/// All of them, in this order.
-std::vector<Picture> draw_pictures(const ViewFrame& frame);
+/// All of them, in this order: cloud and poses from `orbit`, and the poses once more from above.
+std::vector<Picture> draw_pictures(const ViewFrame& frame, const Orbit& orbit);
 
 /// All pictures of a frame on one sheet, with titles and what was found in words.
 cv::Mat draw_sheet(const ViewFrame& frame, const std::vector<Picture>& pictures);

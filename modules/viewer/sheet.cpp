@@ -7,8 +7,8 @@
 namespace limbcast::viewer {
 namespace {
 
-const cv::Size kCell(480, 360);  // of one picture [px]
 constexpr int kColumns = 4, kRows = 2;
+const cv::Size kCell(kSheetSize.width / kColumns, kSheetSize.height / kRows);  // one picture [px]
 constexpr double kTextSize = 0.45;
 constexpr int kLineHeight = 18;
 /// Lines that fit into the cell of words.
@@ -96,7 +96,7 @@ void place(const cv::Mat& picture, const cv::Mat& cell) {
 }  // namespace
 
 cv::Mat draw_sheet(const ViewFrame& frame, const std::vector<Picture>& pictures) {
-  cv::Mat sheet(kRows * kCell.height, kColumns * kCell.width, CV_8UC3, cv::Scalar::all(0));
+  cv::Mat sheet(kSheetSize, CV_8UC3, cv::Scalar::all(0));
   const auto cell = [&sheet](int i) {
     return sheet(cv::Rect({i % kColumns * kCell.width, i / kColumns * kCell.height}, kCell));
   };

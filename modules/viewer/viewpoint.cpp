@@ -89,13 +89,13 @@ std::optional<Viewpoint> sensor_view(const ViewFrame& frame) {
   return Viewpoint{*frame.cloud->camera, Eigen::Isometry3f::Identity()};
 }
 
-Viewpoint orbit_view(const ViewFrame& frame, const Direction& direction, cv::Size size) {
+Viewpoint orbit_view(const ViewFrame& frame, const Orbit& orbit, cv::Size size) {
   const Ball ball = interesting_part(frame);
   const Eigen::Vector3f down = frame.stamp.gravity.down;
   // Standing to the right of the image means looking to the left: a turn against gravity's sense.
-  const Eigen::AngleAxisf turn(-direction.azimuth_deg * kRadians, down);
-  // Straight above, right and left would be lost.
-  const float elevation = std::min(direction.elevation_deg, 89.0F) * kRadians;
+  const Eigen::AngleAxisf turn(-orbit.azimuth_deg * kRadians, down);
+  // Straight above or below, right and left would be lost.
+  const float elevation = std::clamp(orbit.elevation_deg, -89.0F, 89.0F) * kRadians;
   const Eigen::Vector3f look =
       std::cos(elevation) * (turn * horizontal_forward(down)) + std::sin(elevation) * down;
   const Eigen::Vector3f right = down.cross(look).normalized();
@@ -105,7 +105,7 @@ Viewpoint orbit_view(const ViewFrame& frame, const Direction& direction, cv::Siz
   Viewpoint view;
   const float focal_px = kFocal * static_cast<float>(size.height);
   view.camera = {size.width, size.height, focal_px, focal_px, 0.5 * size.width, 0.5 * size.height};
-  const float distance_m = 2.0F * kFocal * 1.1F * ball.radius_m;
+  const float distance_m = 2.0F * kFocal * 1.1F * ball.radius_m / orbit.zoom;
   view.eye_from_frame.linear() = eye_axes;
   view.eye_from_frame.translation() = -eye_axes * (ball.center_m - distance_m * look);
   return view;

@@ -19,15 +19,18 @@ struct Viewpoint {
   std::optional<cv::Point2f> project(const Eigen::Vector3f& point_m) const;
 };
 
-/// Where to stand: turned by `azimuth_deg` about gravity (0: where the sensor stands; positive: to
-/// the right of the image) and raised by `elevation_deg` (90: straight above).
-struct Direction {
-  float azimuth_deg = 0.0F, elevation_deg = 0.0F;
+/// From where to look at the people: turned by `azimuth_deg` about gravity (0: where the sensor
+/// stands; positive: to the right of the image), raised by `elevation_deg` (90: straight above,
+/// -90: straight below), and `zoom` times nearer than where all of them can be seen.
+struct Orbit {
+  float azimuth_deg = 0.0F, elevation_deg = 0.0F, zoom = 1.0F;
 };
+/// Nearer, the eye would be among the people; farther, they would be a few pixels.
+inline constexpr float kMinZoom = 0.2F, kMaxZoom = 10.0F;
 
 /// The sensor's own view, where it has a camera.
 std::optional<Viewpoint> sensor_view(const ViewFrame& frame);
-/// A view of the people (of the whole cloud where there are none) from another direction.
-Viewpoint orbit_view(const ViewFrame& frame, const Direction& direction, cv::Size size);
+/// A view of the people (of the whole cloud where there are none) from anywhere around them.
+Viewpoint orbit_view(const ViewFrame& frame, const Orbit& orbit, cv::Size size);
 
 }  // namespace limbcast::viewer

@@ -5,6 +5,7 @@
 #include <opencv2/highgui.hpp>
 
 #include "common/config/options.hpp"
+#include "modules/viewer/picture_files.hpp"
 
 namespace limbcast::viewer {
 namespace {
@@ -19,6 +20,11 @@ const std::map<int, Command> kKeys = {
     {'a', Command::kPrevious}, {0xFF51, Command::kPrevious}, {0xFF56, Command::kForward},
     {0xFF55, Command::kBack},  {0xFF50, Command::kFirst},    {0xFF57, Command::kLast},
     {'q', Command::kQuit},     {27, Command::kQuit}};  // Escape
+/// The key of + without shift is = on most keyboards.
+const std::map<int, Look> kLookKeys = {
+    {'j', Look::kLeft},   {'l', Look::kRight},  {'i', Look::kUp},      {'k', Look::kDown},
+    {'+', Look::kNearer}, {'=', Look::kNearer}, {'-', Look::kFarther}, {'r', Look::kAsAtStart}};
+constexpr int kSceneAloneKey = 'v';
 
 bool has_display() {
   return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
@@ -26,11 +32,12 @@ bool has_display() {
 
 }  // namespace
 
-Window::Window() {
+Window::Window(const Orbit& orbit) : control_(orbit) {
   if (!has_display())
     throw config::UsageError(
         "there is no display for a window; write files with --png DIR or --video FILE");
   cv::namedWindow(kTitle, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
+  cv::setMouseCallback(kTitle, &Window::on_mouse, this);
 }
 
 Window::~Window() { cv::destroyAllWindows(); }
@@ -52,11 +59,40 @@ void Window::on_slider(int frame, void* window) {
   if (frame != self->slider_frame_) self->on_slider_move_(frame);
 }
 
-void Window::show(const cv::Mat& sheet) { cv::imshow(kTitle, sheet); }
+void Window::on_mouse(int /*event*/, int u, int v, int flags, void* window) {
+  const bool pressed = (flags & (cv::EVENT_FLAG_LBUTTON | cv::EVENT_FLAG_RBUTTON)) != 0;
+  static_cast<Window*>(window)->drag_to({u, v}, pressed);
+}
+
+void Window::drag_to(cv::Point pixel, bool pressed) {
+  const cv::Point moved = pixel - mouse_;
+  mouse_ = pixel;
+  if (!pressed || moved == cv::Point()) return;
+  control_.drag(static_cast<float>(moved.x) / static_cast<float>(kSheetSize.width),
+                static_cast<float>(moved.y) / static_cast<float>(kSheetSize.height));
+  outdated_ = true;
+}
+
+void Window::show(ViewFrame frame) {
+  frame_ = std::move(frame);
+  draw();
+}
+
+void Window::draw() {
+  // Of the same size, so that the window keeps its shape.
+  cv::imshow(kTitle, scene_alone_ ? draw_scene(*frame_, control_.orbit(), kSheetSize)
+                                  : draw_frame(*frame_, control_.orbit()).sheet);
+  outdated_ = false;
+}
 
 std::optional<Command> Window::poll() {
   const int key = cv::waitKeyEx(kPoll_ms);
   if (cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) < 1.0) return Command::kQuit;
+  const auto look = kLookKeys.find(key);
+  if (look != kLookKeys.end()) control_.apply(look->second);
+  if (key == kSceneAloneKey) scene_alone_ = !scene_alone_;
+  outdated_ = outdated_ || look != kLookKeys.end() || key == kSceneAloneKey;
+  if (outdated_ && frame_) draw();
   const auto found = kKeys.find(key);
   return found == kKeys.end() ? std::nullopt : std::optional(found->second);
 }

@@ -1,19 +1,21 @@
 #pragma once
 
 #include <functional>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 #include <optional>
 
+#include "modules/viewer/orbit_control.hpp"
 #include "modules/viewer/playback.hpp"
+#include "modules/viewer/view_frame.hpp"
 
 namespace limbcast::viewer {
 
-/// The sheets in a window. Keys: space pauses and goes on; s or right one frame on, a or left one
-/// back; page down and up ten; home, end; q or Escape ends, as closing the window does.
+/// Frames in a window: the sheet, or the people from anywhere on all of it. The README lists keys
+/// and what the mouse does.
 class Window {
  public:
   /// Throws config::UsageError where there is no display.
-  Window();
+  explicit Window(const Orbit& orbit);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -22,15 +24,24 @@ class Window {
   void add_slider(int num_frames, std::function<void(int)> on_move);
   void move_slider(int frame);
 
-  void show(const cv::Mat& sheet);
-  /// What the user asks for; waits a moment for it.
+  void show(ViewFrame frame);
+  /// What the user asks of the playback; waits a moment for it. Draws the frame again where the
+  /// user looks at it from elsewhere.
   std::optional<Command> poll();
 
  private:
   static void on_slider(int frame, void* window);
+  static void on_mouse(int event, int u, int v, int flags, void* window);
+  void drag_to(cv::Point pixel, bool pressed);
+  void draw();
 
   int slider_frame_ = 0;  ///< where the program has put it
   std::function<void(int)> on_slider_move_;
+  std::optional<ViewFrame> frame_;
+  OrbitControl control_;
+  bool scene_alone_ = false;
+  bool outdated_ = false;  ///< the user has asked for another view since the frame was drawn
+  cv::Point mouse_;        ///< where it was last, in pixels of the sheet
 };
 
 }  // namespace limbcast::viewer

@@ -87,6 +87,11 @@ void VirtualDisplay::double_click(cv::Point pixel) const {
         "click", "--repeat", "2", "--delay", "20", "1"});
 }
 
+void VirtualDisplay::drag(cv::Point from, cv::Point to) const {
+  tool({"xdotool", "mousemove", std::to_string(from.x), std::to_string(from.y), "mousedown", "1",
+        "mousemove", std::to_string(to.x), std::to_string(to.y), "mouseup", "1"});
+}
+
 cv::Mat VirtualDisplay::screenshot() const {
   // The first attempt fails now and then on a busy machine while windows move.
   constexpr int kMostAttempts = 30;

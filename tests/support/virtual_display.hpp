@@ -31,6 +31,8 @@ class VirtualDisplay {
   void show(const std::string& window, cv::Size size) const;
   void press(const std::string& window, const std::string& key) const;
   void double_click(cv::Point pixel) const;
+  /// With the left button.
+  void drag(cv::Point from, cv::Point to) const;
   /// The whole screen, 8-bit BGR.
   cv::Mat screenshot() const;
 

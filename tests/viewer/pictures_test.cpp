@@ -22,10 +22,6 @@ ViewFrame whole_frame() {
 
 cv::Vec3b pixel(const cv::Mat& picture, int u, int v) { return picture.at<cv::Vec3b>(v, u); }
 
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0.0;
-}
-
 TEST(Pictures, DrawJointsAndLinksWhereTheCameraSeesThem) {
   const cv::Mat picture = draw_skeleton(whole_frame());
   ASSERT_EQ(picture.size(), cv::Size(160, 120));
@@ -113,11 +109,43 @@ TEST(Pictures, HolesAreBlackInTheDisparity) {
   EXPECT_NE(pixel(picture, 101, 60), cv::Vec3b(0, 0, 0));
 }
 
-TEST(Pictures, ShowThePosesFromTheSide) {
-  ViewFrame nobody = whole_frame();
-  nobody.poses->persons.clear();
-  EXPECT_FALSE(same(draw_skeleton_from_side(whole_frame()), draw_skeleton_from_side(nobody)));
-  EXPECT_FALSE(same(draw_skeleton_from_above(whole_frame()), draw_skeleton_from_above(nobody)));
+/// Where the right arm is drawn: the box around its orange.
+cv::Rect arm_from(const Orbit& orbit) {
+  ViewFrame frame = whole_frame();
+  frame.cloud.reset();
+  frame.poses->persons[0].pointing.clear();
+  cv::Mat1b orange;
+  cv::inRange(draw_scene(frame, orbit), cv::Scalar(0, 90, 200), cv::Scalar(60, 140, 255), orange);
+  return cv::boundingRect(orange);
+}
+
+TEST(Pictures, ShowTheSceneFromAnywhere) {
+  // The arm is stretched out across the sensor's view: 1 m, of which some is under the joints.
+  const int across_px = arm_from({}).width;
+  EXPECT_GT(across_px, 100);
+  // Turned by 60 degrees it looks half as long, by 90 it is one point, from behind all of it.
+  EXPECT_NEAR(arm_from({60.0F, 0.0F}).width, 0.5 * across_px, 0.1 * across_px);
+  EXPECT_LT(arm_from({90.0F, 0.0F}).width, 0.1 * across_px);
+  EXPECT_NEAR(arm_from({180.0F, 0.0F}).width, across_px, 0.1 * across_px);
+  // Above and below, it is still across.
+  for (const float elevation_deg : {-90.0F, -45.0F, 45.0F, 90.0F})
+    EXPECT_NEAR(arm_from({0.0F, elevation_deg}).width, across_px, 0.1 * across_px);
+}
+
+TEST(Pictures, ShowWhatIsNearerToTheEyeLarger) {
+  const int once_px = arm_from({}).width;
+  EXPECT_NEAR(arm_from({0.0F, 0.0F, 1.5F}).width, 1.5 * once_px, 0.1 * once_px);
+  EXPECT_NEAR(arm_from({0.0F, 0.0F, 0.5F}).width, 0.5 * once_px, 0.1 * once_px);
+}
+
+TEST(Pictures, ShowTheRightSideOfTheImageNearerFromTheRight) {
+  // The shoulder is at the image's right, the hand in its middle.
+  const ViewFrame frame = whole_frame();
+  const Viewpoint view = orbit_view(frame, {60.0F, 0.0F}, kPictureSize);
+  const auto distance_m = [&](Joint joint) {
+    return (view.eye_from_frame * frame.poses->persons[0][joint].position_m).z();
+  };
+  EXPECT_LT(distance_m(Joint::kShoulderRight), distance_m(Joint::kWristRight));
 }
 
 TEST(Pictures, AFrameWithNobodyShowsTheImage) {
@@ -136,7 +164,7 @@ TEST(Pictures, WorkWhateverIsMissing) {
     if (missing & 2) frame.segments.reset();
     if (missing & 4) frame.poses.reset();
     if (missing & 8) frame.truth.reset();
-    const auto pictures = draw_pictures(frame);
+    const auto pictures = draw_pictures(frame, {});
     ASSERT_EQ(pictures.size(), 7U);
     for (const Picture& picture : pictures) EXPECT_FALSE(picture.image.empty()) << picture.name;
     EXPECT_FALSE(draw_sheet(frame, pictures).empty());
@@ -150,7 +178,7 @@ TEST(Pictures, AnUnorganizedCloudIsSeenFromTheSensor) {
   frame.cloud->height = 1;
   frame.cloud->colors.clear();
   EXPECT_EQ(draw_skeleton(frame).size(), kPictureSize);
-  EXPECT_EQ(draw_pictures(frame).size(), 7U);
+  EXPECT_EQ(draw_pictures(frame, {}).size(), 7U);
 }
 
 }  // namespace

@@ -59,6 +59,24 @@ TEST(ViewerProgram, DrawsEveryNthFrameUpToAMaximum) {
   EXPECT_TRUE(std::filesystem::exists(folder / "pictures/frame_00003_sheet.png"));
 }
 
+TEST(ViewerProgram, LooksFromWhereItIsTold) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, true);
+  const auto scene = [&folder](const std::vector<std::string>& from) {
+    std::vector<std::string> arguments = {folder / "out.log", "--png", folder / "pictures"};
+    arguments.insert(arguments.end(), from.begin(), from.end());
+    EXPECT_EQ(view(arguments).exit_code, 0);
+    return cv::imread(folder / "pictures/frame_00000_scene.png");
+  };
+  const auto differ = [](const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b) > 0.0; };
+  const cv::Mat by_default = scene({});
+  EXPECT_FALSE(differ(by_default, scene({"--azimuth-deg", "65", "--elevation-deg", "10"})));
+  EXPECT_TRUE(differ(by_default, scene({"--azimuth-deg", "-65"})));
+  EXPECT_TRUE(differ(by_default, scene({"--elevation-deg", "-10"})));
+  EXPECT_TRUE(differ(by_default, scene({"--zoom", "2"})));
+  EXPECT_EQ(view({folder / "out.log", "--zoom", "0"}).exit_code, 2);
+}
+
 TEST(ViewerProgram, DrawsPosesOfALogWithoutClouds) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", 1, false);

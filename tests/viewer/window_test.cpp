@@ -26,7 +26,7 @@ class ViewerWindow : public ::testing::Test {
     // So slow that a frame changes by what the test does alone.
     viewer_ = std::make_unique<test::ChildProcess>(
         std::vector<std::string>{test::program("limbcast-viewer"), folder_ + "/out.log", "--rate",
-                                 "0.1"},
+                                 "0.1", "--azimuth-deg", "0", "--elevation-deg", "0"},
         folder_ + "/viewer.txt", std::vector<std::string>{display_->variable()});
     window_ = display_->window("limbcast", *viewer_);
   }
@@ -67,6 +67,21 @@ class ViewerWindow : public ::testing::Test {
     return false;
   }
 
+  /// The box around the orange of the arm in a part of the window.
+  cv::Rect arm_in(const cv::Rect& part) const {
+    cv::Mat1b orange;
+    cv::inRange(display_->screenshot()(part), cv::Scalar(0, 60, 180), cv::Scalar(110, 160, 255),
+                orange);
+    return cv::boundingRect(orange);
+  }
+  /// Looks until the arm in the part is so wide, but not for ever.
+  bool arm_comes_to_be(int width_px, const cv::Rect& part) const {
+    constexpr int kLooks = 40, kTolerance_px = 5;
+    for (int i = 0; i < kLooks; ++i)
+      if (std::abs(arm_in(part).width - width_px) <= kTolerance_px) return true;
+    return false;
+  }
+
   const std::string folder_ = test::temporary_folder("viewer_window");
   std::unique_ptr<test::VirtualDisplay> display_;
   std::unique_ptr<test::ChildProcess> viewer_;
@@ -85,6 +100,31 @@ TEST_F(ViewerWindow, StepsAndJumpsThroughALogByKeys) {
   EXPECT_TRUE(shows_after("Home", 0));
   while (viewer_->running()) display_->press(window_, "q");
   EXPECT_EQ(viewer_->wait(), 0) << viewer_->output();
+}
+
+TEST_F(ViewerWindow, TurnsWithTheMouseAndByKeys) {
+  // The sixth picture shows the scene; the slider is below.
+  const cv::Rect whole(0, 0, 960, 360), scene(240, 180, 240, 180);
+  ASSERT_TRUE(comes_to_show(0)) << viewer_->output();
+  const int across_px = arm_in(scene).width;
+  ASSERT_GT(across_px, 30);
+
+  // A quarter of the window: a quarter turn, after which the arm points to the eye.
+  display_->drag({500, 200}, {500 + whole.width / 4, 200});
+  EXPECT_TRUE(arm_comes_to_be(0, scene));
+  display_->press(window_, "r");
+  EXPECT_TRUE(arm_comes_to_be(across_px, scene));
+  // Twelve steps of 5 degrees: half as wide.
+  for (int i = 0; i < 12; ++i) display_->press(window_, "l");
+  EXPECT_TRUE(arm_comes_to_be(across_px / 2, scene));
+  for (int i = 0; i < 12; ++i) display_->press(window_, "j");
+  EXPECT_TRUE(arm_comes_to_be(across_px, scene));
+
+  display_->press(window_, "v");
+  // Twice as high as in the sheet.
+  EXPECT_TRUE(arm_comes_to_be(2 * across_px, whole));
+  display_->press(window_, "minus");
+  EXPECT_TRUE(arm_comes_to_be(cvRound(2 * across_px / 1.2), whole));
 }
 
 }  // namespace
