@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/module.hpp"
 
 namespace limbcast::replay {
 namespace {
@@ -131,12 +132,14 @@ void Chain::from_images(const LogEvent& event, const Reconstructor& stereo,
     cloud = reconstructor::Stage::process(*stereo, images);
   }
   result.events.push_back(to_event(event.utime, options_.reconstructor.point_cloud_channel, cloud));
+  if (lcm_io::stop_requested()) return;
   from_cloud(event.utime, cloud, result);
 }
 
 void Chain::from_cloud(std::int64_t utime, const point_cloud_t& cloud, FrameResult& result) const {
   const segments_t segments = segmenter_.process(cloud);
   result.events.push_back(to_event(utime, options_.segmenter.segments_channel, segments));
+  if (lcm_io::stop_requested()) return;
   from_segments(utime, segments, result);
 }
 

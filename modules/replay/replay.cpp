@@ -49,7 +49,6 @@ class Replay {
       while (workers.pending() > max_pending || oldest_is_ready())
         write_oldest(workers, writer, progress);
     }
-    // Who stops the program does not wait for the frames that are in work.
     while (!waiting_.empty() && !lcm_io::stop_requested()) write_oldest(workers, writer, progress);
     writer.close();
     summary_.interrupted = lcm_io::stop_requested();
@@ -159,9 +158,12 @@ class Replay {
                     const Progress& progress) {
     const Waiting oldest = std::move(waiting_.front());
     waiting_.pop_front();
-    writer.write(oldest.event);
-    if (!oldest.is_frame) return;
+    if (!oldest.is_frame) return writer.write(oldest.event);
     const FrameResult result = workers.take();
+    // Who stops the program waits for a step of a frame at most: what is left of it is not done,
+    // and such a frame is not written.
+    if (lcm_io::stop_requested()) return;
+    writer.write(oldest.event);
     for (const LogEvent& event : result.events) writer.write(event);
     write_tracked(result.events.empty() ? oldest.event : result.events.back(), writer);
     count(oldest.event, result);

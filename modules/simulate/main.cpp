@@ -32,6 +32,8 @@ void make_frames(const SimulateOptions& options, const SimulatorParams& params, 
                   std::to_string(i + 1) + " of " + std::to_string(options.frames) + " frames made");
     }
   }
+  if (lcm_io::stop_requested())
+    config::log(config::LogLevel::kWarning, "interrupted; not all frames were made");
 }
 
 void write_log(const SimulateOptions& options, const SimulatorParams& params,
@@ -60,11 +62,12 @@ void publish(const SimulateOptions& options, const SimulatorParams& params,
   do {
     for (FrameMessages& message : messages) {
       wait_until(pacer.due(message.utime(), Pacer::Clock::now()), module);
-      if (lcm_io::stop_requested()) return;
+      if (lcm_io::stop_requested()) break;
       message.restamp(lcm_io::utime_now(), sequence++);
       message.send(channels, outlet);
     }
-  } while (options.loop);
+  } while (options.loop && !lcm_io::stop_requested());
+  config::log(config::LogLevel::kInfo, std::to_string(sequence) + " frames sent");
 }
 
 void report(const SimulateOptions& options, const SimulatorParams& params) {

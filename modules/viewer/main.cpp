@@ -102,15 +102,18 @@ std::vector<int> wanted_frames(const Options& options, int count) {
   return numbers;
 }
 
-void write_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
+/// Returns how many were drawn: fewer where the program was told to end.
+std::size_t write_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
   Output output(options);
   const std::size_t batch = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 0; i < numbers.size() && !lcm_io::stop_requested();) {
+  std::size_t i = 0;
+  while (i < numbers.size() && !lcm_io::stop_requested()) {
     std::vector<ViewFrame> frames;
     for (; i < numbers.size() && frames.size() < batch; ++i)
       frames.push_back(log.frame(numbers[i]));
     output.write(frames);
   }
+  return i;
 }
 
 /// Until the user ends it.
@@ -137,10 +140,12 @@ void show_log(const Options& options, LogFrames& log, const std::vector<int>& nu
 void view_log(const Options& options) {
   LogFrames log_frames(options.log, options.channels);
   const std::vector<int> numbers = wanted_frames(options, log_frames.count());
-  if (to_window(options) && !numbers.empty())
+  const bool windowed = to_window(options) && !numbers.empty();
+  std::size_t num_drawn = 0;
+  if (windowed)
     show_log(options, log_frames, numbers);
   else
-    write_log(options, log_frames, numbers);
+    num_drawn = write_log(options, log_frames, numbers);
   if (log_frames.num_malformed() > 1)
     log(LogLevel::kWarning, std::to_string(log_frames.num_malformed()) + " messages dropped");
   if (log_frames.torn_bytes() > 0)
@@ -149,8 +154,9 @@ void view_log(const Options& options) {
   if (numbers.empty())
     log(LogLevel::kWarning,
         options.log + ": holds no clouds, segments or poses to draw; limbcast-replay adds them");
-  else if (!to_window(options))
-    log(LogLevel::kInfo, std::to_string(numbers.size()) + " frames drawn");
+  else if (!windowed)
+    log(LogLevel::kInfo,
+        std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames drawn");
 }
 
 /// What comes over LCM, put together.
