@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/human_model/shortest_turn.hpp"
+
 namespace limbcast {
 namespace {
 
@@ -53,7 +55,7 @@ Swing swing_of(const Vector3f& direction) {
 /// `direction`.
 Matrix3f swung(const Matrix3f& frame, const Vector3f& direction) {
   const Vector3f down = -frame.col(1);
-  return Eigen::Quaternionf::FromTwoVectors(down, direction).toRotationMatrix() * frame;
+  return shortest_turn(down, direction).toRotationMatrix() * frame;
 }
 
 /// Rotation that takes the body's x axis to `axis` by a turn about up, then a tilt about forward.

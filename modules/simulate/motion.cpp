@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/human_model/shortest_turn.hpp"
+
 namespace limbcast::simulate {
 namespace {
 
@@ -35,9 +37,8 @@ double middle_of_feet_z(const BodyShape& body, const Posture& posture) {
 Posture between(const Posture& from, const Posture& to, double share) {
   const auto mixed = [share](double a, double b) { return (1.0 - share) * a + share * b; };
   const auto turned = [share](const Vector3d& a, const Vector3d& b) {
-    return Vector3d(
-        Eigen::Quaterniond::Identity().slerp(share, Eigen::Quaterniond::FromTwoVectors(a, b)) *
-        a.normalized());
+    return Vector3d(Eigen::Quaterniond::Identity().slerp(share, shortest_turn(a, b)) *
+                    a.normalized());
   };
   Posture result = share < 1.0 ? from : to;
   result.lean_rad = mixed(from.lean_rad, to.lean_rad);

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "common/human_model/shortest_turn.hpp"
+
 namespace limbcast::pose_fitter {
 namespace {
 
@@ -69,7 +71,7 @@ Vector3f RotationFitter::reference_direction(int number, const FittedPose& pose)
   const Vector3f other_found =
       (pose.links[*coupled_to].end_m - pose.links[model_.links[*coupled_to].connected_to].end_m)
           .normalized();
-  return Eigen::Quaternionf::FromTwoVectors(other, other_found) * own;
+  return shortest_turn(other, other_found) * own;
 }
 
 const RotationFitter::SharedFit& RotationFitter::shared_fit(int number, const LinkStart& start,

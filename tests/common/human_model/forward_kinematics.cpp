@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/human_model/shortest_turn.hpp"
+
 namespace limbcast {
 namespace {
 
@@ -41,8 +43,7 @@ class Builder {
     Vector3f upper = swing(angle(root + "_flexion"), side * angle(root + "_abduction"));
     upper = frame * upper;
     add(upper_link, upper);
-    const Matrix3f moved =
-        Eigen::Quaternionf::FromTwoVectors(-frame.col(1), upper).toRotationMatrix() * frame;
+    const Matrix3f moved = shortest_turn<float>(-frame.col(1), upper).toRotationMatrix() * frame;
     const float rotation = angle(root + "_rotation"), bend = angle(hinge + "_flexion");
     add(upper_link + 1,
         moved * Vector3f(-side * bends * std::sin(bend) * std::sin(rotation), -std::cos(bend),
@@ -91,7 +92,7 @@ Skeleton skeleton_from_angles(const Angles& angles, const HumanModel& model, con
     const Vector3f direction =
         back * swing(-b.angle(name + "_flexion"), b.angle(name + "_lateral"));
     b.add(link, direction);
-    back = Eigen::Quaternionf::FromTwoVectors(-back.col(1), direction).toRotationMatrix() * back;
+    back = shortest_turn<float>(-back.col(1), direction).toRotationMatrix() * back;
   }
   const float turn =
       b.angle("upper_back_twist") + b.angle("lower_back_twist") + b.angle("pelvis_turn");
