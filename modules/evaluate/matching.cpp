@@ -4,20 +4,12 @@
 #include <array>
 #include <tuple>
 
+#include "common/human_model/mean_joint_distance.hpp"
+
 namespace limbcast::evaluate {
 namespace {
 
 constexpr std::array<Joint, 4> kTrunk = {Joint::kHead, Joint::kNeck, Joint::kChest, Joint::kPelvis};
-
-struct DistanceSum {
-  float sum_m = 0.0F;
-  int count = 0;
-  void add(const JointEstimate& a, const JointEstimate& b) {
-    if (!a.valid || !b.valid) return;
-    sum_m += (a.position_m - b.position_m).norm();
-    ++count;
-  }
-};
 
 struct Pair {
   float distance_m;
@@ -44,12 +36,10 @@ std::vector<Pair> near_pairs(const std::vector<BodyPose>& truth,
 }  // namespace
 
 std::optional<float> person_distance_m(const BodyPose& a, const BodyPose& b) {
-  DistanceSum trunk, all;
+  MeanJointDistance trunk, all;
   for (const Joint joint : kTrunk) trunk.add(a[joint], b[joint]);
   for (int i = 0; i < kJointCount; ++i) all.add(a.joints[i], b.joints[i]);
-  const DistanceSum& used = trunk.count > 0 ? trunk : all;
-  if (used.count == 0) return std::nullopt;
-  return used.sum_m / static_cast<float>(used.count);
+  return trunk.mean_m() ? trunk.mean_m() : all.mean_m();
 }
 
 Matching match_persons(const std::vector<BodyPose>& truth, const std::vector<BodyPose>& reported,

@@ -4,32 +4,16 @@
 #include <optional>
 #include <utility>
 
+#include "common/human_model/mean_joint_distance.hpp"
+
 namespace limbcast::pose_fitter {
 namespace {
-
-/// Mean distance over the pairs of joints that both bodies have.
-class MeanDistance {
- public:
-  void add(const JointEstimate& a, const JointEstimate& b) {
-    if (!a.valid || !b.valid) return;
-    sum_m_ += (a.position_m - b.position_m).norm();
-    ++count_;
-  }
-  std::optional<float> mean_m() const {
-    if (count_ == 0) return std::nullopt;
-    return sum_m_ / static_cast<float>(count_);
-  }
-
- private:
-  float sum_m_ = 0.0F;
-  int count_ = 0;
-};
 
 constexpr std::pair<Joint, Joint> kSides[] = {{Joint::kShoulderLeft, Joint::kShoulderRight},
                                               {Joint::kHipLeft, Joint::kHipRight}};
 
 std::optional<float> trunk_distance_m(const BodyPose& a, const BodyPose& b, bool swapped) {
-  MeanDistance distance;
+  MeanJointDistance distance;
   for (const Joint joint : {Joint::kNeck, Joint::kChest, Joint::kPelvis}) {
     distance.add(a[joint], b[joint]);
   }
@@ -48,7 +32,7 @@ bool same_place(const BodyPose& a, const BodyPose& b) {
     const auto trunk_m = trunk_distance_m(a, b, swapped);
     if (trunk_m && *trunk_m < kSameTrunkM) return true;
     if (trunk_m) continue;
-    MeanDistance heads;
+    MeanJointDistance heads;
     heads.add(a[Joint::kHead], b[Joint::kHead]);
     return heads.mean_m().value_or(kSameTrunkM) < kSameTrunkM;
   }

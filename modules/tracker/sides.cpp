@@ -4,23 +4,14 @@
 #include <limits>
 #include <utility>
 
+#include "common/human_model/mean_joint_distance.hpp"
+
 namespace limbcast::tracker {
 namespace {
 
 constexpr std::array<Joint, 6> kLeftJoints = {Joint::kShoulderLeft, Joint::kElbowLeft,
                                               Joint::kWristLeft,    Joint::kHipLeft,
                                               Joint::kKneeLeft,     Joint::kAnkleLeft};
-
-struct MeanDistance {
-  float sum_m = 0.0F;
-  int count = 0;
-  void add(const JointEstimate& a, const JointEstimate& b) {
-    if (!a.valid || !b.valid) return;
-    sum_m += (a.position_m - b.position_m).norm();
-    ++count;
-  }
-  float value_m() const { return count == 0 ? 0.0F : sum_m / static_cast<float>(count); }
-};
 
 Side opposite(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
 
@@ -39,7 +30,7 @@ BodyPose with_sides_exchanged(const BodyPose& pose) {
 }
 
 float gain_of_exchange_m(const BodyPose& expected, const BodyPose& pose) {
-  MeanDistance as_named, exchanged;
+  MeanJointDistance as_named, exchanged;
   for (const Joint left : kLeftJoints) {
     const Joint right = on_side(left, Side::kRight);
     as_named.add(expected[left], pose[left]);
@@ -47,8 +38,8 @@ float gain_of_exchange_m(const BodyPose& expected, const BodyPose& pose) {
     exchanged.add(expected[left], pose[right]);
     exchanged.add(expected[right], pose[left]);
   }
-  if (as_named.count == 0 || exchanged.count == 0) return 0.0F;
-  return as_named.value_m() - exchanged.value_m();
+  if (!as_named.mean_m() || !exchanged.mean_m()) return 0.0F;
+  return *as_named.mean_m() - *exchanged.mean_m();
 }
 
 }  // namespace limbcast::tracker
