@@ -80,7 +80,7 @@ PointInput point_input(const Lattice& lattice, const HeadCandidate& head, std::u
   PointInput input;
   float* values = input.data();
   for (const PatchGrid& grid : kPointGrids) values = write_grid(lattice, place, grid, values);
-  Eigen::Vector3f offset = (lattice.level_m[i] - head.center_m) / kOffsetScale_m;
+  Eigen::Vector3f offset = from_head(lattice, head, lattice.level_m[i]) / kOffsetScale_m;
   if (mirrored) offset.x() = -offset.x();
   const float known = lattice.frame.ground_known ? 1.0F : 0.0F;
   input.tail<kPointPlaceSize>() << offset.x(), std::abs(offset.x()), offset.y(), offset.z(),

@@ -24,7 +24,8 @@ using PointInput = Eigen::Matrix<float, kPointInputSize, 1>;
 /// Tells the points of a body from those of what it touches, by the surface around a point and by
 /// the point's place against the head: depth differences as features of body parts are from J.
 /// Shotton et al., "Real-time human pose recognition in parts from single depth images", CVPR 2011.
-/// Trained by limbcast-train-bodies on the clouds of cameras.
+/// Trained by limbcast-train-bodies on the clouds of cameras; serves those of laser range finders
+/// too.
 class BodyClassifier {
  public:
   /// The network that ships with the library.

@@ -131,7 +131,7 @@ ClusterFigures measure_cluster(const Lattice& lattice, const HeadCandidate& head
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] != label) continue;
     const float size_m = lattice.depth_m[i] / lattice.focal_px;
-    cluster.from_head_m.emplace_back(lattice.level_m[i] - head.center_m);
+    cluster.from_head_m.push_back(from_head(lattice, head, lattice.level_m[i]));
     cluster.area_m2 += size_m * size_m;
     cluster.open += is_open(lattice, labels, i, growing) ? 1 : 0;
   }

@@ -96,7 +96,7 @@ std::vector<std::uint32_t> find_furniture(const Lattice& lattice, const HeadCand
     for (int u = 0; u < box.width; ++u) {
       if (wide(v, u) == 0) continue;
       const std::size_t i = lattice.index(box.x + u, box.y + v);
-      if (!may_be_trunk(lattice.level_m[i] - head.center_m, params))
+      if (!may_be_trunk(from_head(lattice, head, lattice.level_m[i]), params))
         furniture.push_back(static_cast<std::uint32_t>(i));
     }
   }

@@ -165,6 +165,16 @@ Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surfa
   return surface_m + kHeadDepth_m * ray.normalized();
 }
 
+Eigen::Vector3f from_head(const Lattice& lattice, const HeadCandidate& head,
+                          const Eigen::Vector3f& level_m) {
+  const Eigen::Vector3f offset_m = level_m - head.center_m;
+  // A camera's lattice has one direction of depth; a panorama's is the ray's.
+  if (!lattice.wraps_around) return offset_m;
+  const Eigen::Vector2f away = head.center_m.head<2>().normalized();
+  return {away.y() * offset_m.x() - away.x() * offset_m.y(), away.dot(offset_m.head<2>()),
+          offset_m.z()};
+}
+
 std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapeParams& params) {
   const cv::Mat1f scores = score_image(lattice, params);
   cv::Mat1f smooth;

@@ -24,6 +24,11 @@ struct HeadCandidate {
 /// 5 years is 0.9 times as large.
 std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapeParams& params);
 
+/// Where a point of the level frame lies from the head's centre, as the sensor sees the head: x
+/// across to the right, y away from the sensor, z up.
+Eigen::Vector3f from_head(const Lattice& lattice, const HeadCandidate& head,
+                          const Eigen::Vector3f& level_m);
+
 /// Centre of the head whose surface is seen at `surface_m` (both level frame).
 Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surface_m);
 

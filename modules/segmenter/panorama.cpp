@@ -49,6 +49,26 @@ void draw_points(const Cloud& cloud, Lattice& panorama) {
   }
 }
 
+/// Label of the panorama's point that is nearest to a point of the cloud, at most `max_step_m`
+/// away, at its pixel or beside it: a pixel shows the nearest of its points only, and where a limb
+/// is seen end-on others lie far behind.
+std::int16_t label_near(const Lattice& panorama, const std::vector<std::int16_t>& labels,
+                        const Pixel& pixel, const Eigen::Vector3f& level_m, float max_step_m) {
+  float nearest_m = max_step_m * max_step_m;
+  std::int16_t label = kNobody;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      const auto k = panorama.find(pixel.u + du, pixel.v + dv);
+      if (!k) continue;
+      const float distance_m = (panorama.level_m[*k] - level_m).squaredNorm();
+      if (distance_m >= nearest_m) continue;
+      nearest_m = distance_m;
+      label = labels[*k];
+    }
+  }
+  return label;
+}
+
 /// Gives empty directions the depth of the nearest one that has a point within `radius_px`.
 void fill_gaps(int radius_px, Lattice& panorama) {
   cv::Mat1b empty(panorama.height, panorama.width);
@@ -109,9 +129,8 @@ std::vector<std::int16_t> labels_of_points(const Cloud& cloud, const Lattice& pa
     if (panorama.frame.ground_known && level_m.z() < params.ground_cut_m) continue;
     const Pixel pixel = project(panorama, level_m);
     if (!inside(panorama, pixel)) continue;
-    const std::size_t k = panorama.index(pixel.u, pixel.v);
-    if (std::abs(panorama.depth_m[k] - pixel.level_distance_m) < params.min_step_m)
-      of_points[i] = labels[k];
+    of_points[i] =
+        label_near(panorama, labels, pixel, level_m, params.longest_step_m(pixel.level_distance_m));
   }
   return of_points;
 }

@@ -213,7 +213,7 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
 }
 
 FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
-                        const HeadClassifier& classifier, const BodyClassifier* bodies,
+                        const HeadClassifier& classifier, const BodyClassifier& bodies,
                         const Params& params) {
   FoundPeople found;
   std::vector<HeadCandidate> likely =
@@ -222,10 +222,8 @@ FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candi
   while (const auto rejected = trial.drop_rival()) found.rejected.push_back(*rejected);
   while (const auto rejected = trial.drop_weakest()) found.rejected.push_back(*rejected);
   trial.leave_furniture();
-  if (bodies != nullptr) {
-    for (const RejectedHead& rejected : trial.cut_to_bodies(*bodies))
-      found.rejected.push_back(rejected);
-  }
+  for (const RejectedHead& rejected : trial.cut_to_bodies(bodies))
+    found.rejected.push_back(rejected);
   trial.name_people(found);
   return found;
 }

@@ -33,9 +33,9 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
                                         std::vector<RejectedHead>& rejected);
 
 /// Grows all candidates together, and again without the least likely one until all are people; then
-/// cuts off what is no part of them. `bodies` is null for a lattice that is no camera's.
+/// cuts off what is no part of them.
 FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
-                        const HeadClassifier& classifier, const BodyClassifier* bodies,
+                        const HeadClassifier& classifier, const BodyClassifier& bodies,
                         const Params& params);
 
 }  // namespace limbcast::segmenter

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/range_image.hpp"
 
 namespace limbcast::segmenter {
@@ -120,11 +121,13 @@ void fill_from_scan(const RangeImageSource& source, std::int16_t label, const Ei
   fill_gaps(gap_px, image, point_of);
   for (const int i : point_of) {
     const auto point = static_cast<std::size_t>(std::max(0, i));
-    const bool own = i >= 0 && source.labels[point] == label;
-    image.labels.push_back(i < 0 ? PixelLabel::kUnknown
+    const bool hole = i < 0 || source.labels[point] == kUnsure;
+    const bool own = !hole && source.labels[point] == label;
+    if (hole) image.depth_m[image.labels.size()] = 0.0F;
+    image.labels.push_back(hole  ? PixelLabel::kUnknown
                            : own ? PixelLabel::kPerson
                                  : PixelLabel::kOther);
-    if (colored) image.is_skin.push_back(i >= 0 && is_skin_colored(source, point) ? 1 : 0);
+    if (colored) image.is_skin.push_back(!hole && is_skin_colored(source, point) ? 1 : 0);
   }
   segment.range_image = std::move(image);
 }

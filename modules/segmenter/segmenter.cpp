@@ -94,8 +94,8 @@ Segments Segmenter::cut_out_people(const Cloud& cloud,
   }
   JointGrowth growth(scene.lattice, heads, params_.joint, params_.reach);
   leave_furniture(scene.lattice, params_.furniture, growth);
-  std::vector<std::uint32_t> unsure;
-  if (cloud.organized()) unsure = cut_to_bodies(scene.lattice, bodies_, params_.body_cut, growth);
+  const std::vector<std::uint32_t> unsure =
+      cut_to_bodies(scene.lattice, bodies_, params_.body_cut, growth);
   std::vector<std::int16_t> labels = growth.labels();
   for (const std::uint32_t i : unsure) labels[i] = kUnsure;
   fill_segments(scene, labels_of_cloud(scene, labels), result);
@@ -140,8 +140,7 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
                                                   const std::vector<HeadCandidate>& seeds,
                                                   Segments& result) const {
   const LevelFrame& frame = scene.lattice.frame;
-  const FoundPeople people = find_people(scene.lattice, seeds, classifier_,
-                                         scene.cloud.organized() ? &bodies_ : nullptr, params_);
+  const FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
     result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {

@@ -102,8 +102,8 @@ TEST(FindPeople, LeavesOutAHeadWhoseClusterIsNearlyAllOtherThings) {
   const HeadClassifier sure(always(5.0F, kPatchSize), always(5.0F, kPersonInputs));
   const BodyClassifier a_body = parted_at(0.2F);
   const BodyClassifier a_wall = parted_at(-0.15F);
-  EXPECT_EQ(find_people(lattice, {head}, sure, &a_body, {}).heads.size(), 1U);
-  const FoundPeople found = find_people(lattice, {head}, sure, &a_wall, {});
+  EXPECT_EQ(find_people(lattice, {head}, sure, a_body, {}).heads.size(), 1U);
+  const FoundPeople found = find_people(lattice, {head}, sure, a_wall, {});
   EXPECT_TRUE(found.heads.empty());
   ASSERT_EQ(found.rejected.size(), 1U);
   EXPECT_LT(found.rejected[0].rejection.figure, 0.2F);
