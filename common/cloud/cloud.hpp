@@ -39,7 +39,7 @@ struct DepthNoise {
 /// What stays the same from the capture to the pose: who saw it, when, and how the sensor stood.
 struct Stamp {
   std::int64_t utime = 0;     ///< moment of capture [us since the Unix epoch]
-  std::int64_t sequence = 0;  ///< frame number of the source, counts up by one a frame
+  std::int64_t sequence = 0;  ///< counts up by one with each message of its publisher
   std::string sensor;         ///< name of the sensor, e.g. "front"
   std::string frame;          ///< frame of all points, e.g. "front/left_rectified"
   Gravity gravity;

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "common/config/options.hpp"
 #include "common/lcm_io/bus.hpp"
@@ -53,9 +56,11 @@ class Module {
                             });
   }
 
-  /// The result for a frame: counted, with its age.
+  /// The result for a frame: counted, with its age, and numbered, so that whoever hears it can tell
+  /// what was lost on the way from what this module or one before it left out.
   template <class Message>
-  void publish_frame(const std::string& channel, const Message& message) {
+  void publish_frame(const std::string& channel, Message message) {
+    message.stamp.sequence = next_sequence_[{channel, message.stamp.sensor}]++;
     publish(channel, message);
     counter_.published(message.stamp.utime, utime_now());
   }
@@ -87,6 +92,7 @@ class Module {
   StatusCounter counter_;
   std::string note_;
   std::string last_logged_problem_;
+  std::map<std::pair<std::string, std::string>, std::int64_t> next_sequence_;  ///< channel, sensor
   std::chrono::steady_clock::time_point last_status_;
 };
 

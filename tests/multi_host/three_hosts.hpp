@@ -67,7 +67,8 @@ class ThreeHosts : public ::testing::Test {
   std::string camera_rate_hz_ = "4";
   std::vector<std::string> camera_environment_;
 
-  /// Sequence numbers as the camera sent them, and as they reached the vision host.
+  /// Times of the frames as the camera sent them, and sequence numbers as they reached the vision
+  /// host.
   std::vector<std::int64_t> sent_;
   std::set<std::int64_t> arrived_;
   std::vector<body_poses_t> poses_;
@@ -82,6 +83,8 @@ class ThreeHosts : public ::testing::Test {
 
   /// What the chain makes of each frame of the recording, without stamp, as bytes.
   std::vector<std::vector<std::uint8_t>> expected_;
+  /// Which frame of the recording the camera sent, by its time.
+  std::map<std::int64_t, std::int64_t> recorded_frame_;
   std::map<std::string, std::unique_ptr<ChildProcess>> processes_;
   std::unique_ptr<lcm_io::Bus> camera_bus_, vision_bus_, operator_bus_;
   int starts_ = 0;

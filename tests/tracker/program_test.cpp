@@ -49,11 +49,16 @@ TEST(TrackerProcess, PublishesTrackedPosesWithIdentitiesThatStay) {
   while (!alive) ASSERT_NO_FATAL_FAILURE(handle());
   for (int frame = 0; frame < 3; ++frame) {
     tracked.reset();
-    bus.publish("BODY_POSES", poses_at(1000 + frame * 100'000, "front", 7 * frame));
+    body_poses_t poses = poses_at(1000 + frame * 100'000, "front", 7 * frame);
+    // Two were lost before each.
+    poses.stamp.sequence = 3 * frame;
+    bus.publish("BODY_POSES", poses);
     while (!tracked) ASSERT_NO_FATAL_FAILURE(handle());
     ASSERT_EQ(tracked->num_persons, 1);
     EXPECT_EQ(tracked->persons[0].id, 1);
     EXPECT_EQ(tracked->stamp.utime, 1000 + frame * 100'000);
+    // Whoever hears the tracker has not lost them.
+    EXPECT_EQ(tracked->stamp.sequence, frame);
   }
   process.signal(SIGTERM);
   EXPECT_EQ(process.wait(), 0);
