@@ -102,14 +102,11 @@ class LcmSpy : public RealLog {
     const int before = num_status_;
     while (num_status_ == before) bus_.handle(std::chrono::milliseconds(100));
   }
-  void play() const { test::run({"lcm-logplayer", "--lcm-url=" + url_, log_}); }
+  void play() const { test::run({"lcm-logplayer", "--lcm-url=" + url_, played_}); }
 
   /// A double click on the channel's row of the sorted table. Its identifier; empty: none came.
   std::string open(const std::string& channel) {
-    static const std::vector<std::string> kRows = {
-        "BODY_POSES", "GROUND_TRUTH",       "MODULE_STATUS", "POINT_CLOUD",
-        "SEGMENTS",   "STEREO_CALIBRATION", "STEREO_IMAGES", "TRACKED_POSES"};
-    const auto row = std::find(kRows.begin(), kRows.end(), channel) - kRows.begin();
+    const auto row = std::find(rows_.begin(), rows_.end(), channel) - rows_.begin();
     // Of Java's usual table [px].
     constexpr int kHead = 20, kRowHeight = 16;
     const cv::Point place(300, kHead + static_cast<int>(row) * kRowHeight + kRowHeight / 2);
@@ -135,6 +132,11 @@ class LcmSpy : public RealLog {
 
   const std::string url_ = test::private_lcm_url();
   const std::string folder_ = test::temporary_folder("lcm_spy");
+  /// The log that is played, and the channels that lcm-spy lists then.
+  std::string played_ = log_;
+  std::vector<std::string> rows_ = {"BODY_POSES",    "GROUND_TRUTH", "MODULE_STATUS",
+                                    "POINT_CLOUD",   "SEGMENTS",     "STEREO_CALIBRATION",
+                                    "STEREO_IMAGES", "TRACKED_POSES"};
   lcm_io::Bus bus_;
   int num_status_ = 0;
   std::unique_ptr<test::VirtualDisplay> display_;
@@ -246,22 +248,53 @@ double likeness(const cv::Mat& picture, const cv::Mat& image, int width) {
   return best;
 }
 
+const cv::Size kImagesWindow(1000, 420);
+/// A frame takes a few pixels of the window: so many are left for each image.
+constexpr int kImageWidth = 495;
+cv::Mat left_half(const cv::Mat& shown) { return shown(cv::Rect(0, 0, 502, 420)); }
+cv::Mat right_half(const cv::Mat& shown) { return shown(cv::Rect(498, 0, 502, 420)); }
+
 TEST_F(LcmSpy, ShowsBothImagesOfAPair) {
   const std::string window = open("STEREO_IMAGES");
   ASSERT_FALSE(window.empty()) << spy_->output();
   const auto pair = last<stereo_images_t>("STEREO_IMAGES");
-  // A frame takes a few pixels of a window of 1000: 495 are left for each image.
-  constexpr int kImageWidth = 495;
-  const auto left_half = [](const cv::Mat& shown) { return shown(cv::Rect(0, 0, 502, 420)); };
-  const auto right_half = [](const cv::Mat& shown) { return shown(cv::Rect(498, 0, 502, 420)); };
   const cv::Mat left = lcm_io::from_message(pair.left), right = lcm_io::from_message(pair.right);
-  const cv::Mat picture = picture_of(window, {1000, 420}, [&](const cv::Mat& shown) {
+  const cv::Mat picture = picture_of(window, kImagesWindow, [&](const cv::Mat& shown) {
     return likeness(left_half(shown), left, kImageWidth) > 0.95;
   });
   EXPECT_GT(likeness(left_half(picture), left, kImageWidth), 0.95);
   EXPECT_GT(likeness(right_half(picture), right, kImageWidth), 0.95);
   EXPECT_LT(likeness(left_half(picture), right, kImageWidth),
             likeness(left_half(picture), left, kImageWidth));
+}
+
+TEST_F(LcmSpy, ShowsColorAndDepthBesideEachOther) {
+  depth_images_t frame{};
+  frame.stamp.sensor = "front";
+  const cv::Mat color = lcm_io::from_message(last<stereo_images_t>("STEREO_IMAGES").left);
+  frame.color = last<stereo_images_t>("STEREO_IMAGES").left;
+  frame.depth_scale_m = 0.001;
+  // A box half a metre away before a wall at 8 m, with a strip that was not measured.
+  cv::Mat1w depth(color.size(), static_cast<std::uint16_t>(8000));
+  depth(cv::Rect(200, 100, 200, 250)) = 500;
+  depth.colRange(0, 60) = 0;
+  frame.depth = lcm_io::to_png_message(depth);
+  cv::Mat3b shades(color.size(), cv::Vec3b::all(26));
+  shades(cv::Rect(200, 100, 200, 250)) = cv::Vec3b::all(255);
+  shades.colRange(0, 60) = cv::Vec3b::all(0);
+
+  played_ = folder_ + "/depth.log";
+  rows_ = {"DEPTH_IMAGES", "MODULE_STATUS"};
+  lcm_io::LogWriter log(played_);
+  log.write(0, "DEPTH_IMAGES", frame);
+  log.close();
+  const std::string window = open("DEPTH_IMAGES");
+  ASSERT_FALSE(window.empty()) << spy_->output();
+  const cv::Mat picture = picture_of(window, kImagesWindow, [&](const cv::Mat& shown) {
+    return likeness(right_half(shown), shades, kImageWidth) > 0.95;
+  });
+  EXPECT_GT(likeness(left_half(picture), color, kImageWidth), 0.95);
+  EXPECT_GT(likeness(right_half(picture), shades, kImageWidth), 0.95);
 }
 
 TEST_F(LcmSpy, ListsModulesInATable) {

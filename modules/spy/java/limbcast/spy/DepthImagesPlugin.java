@@ -19,13 +19,8 @@ public final class DepthImagesPlugin implements SpyPlugin {
 
   @Override
   public Action getAction(JDesktopPane desktop, ChannelData channel) {
-    return new OpenView<>(
-        "Images",
-        desktop,
-        channel,
-        depth_images_t.class,
-        depth_images_t::new,
-        () -> new ImagesView<>(DepthImagesPlugin::decode));
+    return ImagesView.open(
+        desktop, channel, depth_images_t.class, depth_images_t::new, DepthImagesPlugin::decode);
   }
 
   private static List<BufferedImage> decode(depth_images_t frame) throws IOException {

@@ -7,7 +7,10 @@ import java.awt.RenderingHints;
 import java.awt.image.BufferedImage;
 import java.io.IOException;
 import java.util.List;
+import javax.swing.Action;
 import javax.swing.JComponent;
+import javax.swing.JDesktopPane;
+import lcm.spy.ChannelData;
 
 /** Shows the pictures of a message beside one another, each as large as its part of the window. */
 final class ImagesView<M> extends JComponent implements MessageView<M> {
@@ -18,6 +21,17 @@ final class ImagesView<M> extends JComponent implements MessageView<M> {
 
   private final Decoder<M> decoder;
   private volatile List<BufferedImage> pictures = List.of();
+
+  /** For plugins: opens such a view of the channel. */
+  static <M> Action open(
+      JDesktopPane desktop,
+      ChannelData channel,
+      Class<M> type,
+      OpenView.Decoder<M> decoder,
+      Decoder<M> pictures) {
+    return new OpenView<>(
+        "Images", desktop, channel, type, decoder, () -> new ImagesView<>(pictures));
+  }
 
   ImagesView(Decoder<M> decoder) {
     this.decoder = decoder;

@@ -49,7 +49,10 @@ final class Pictures {
     }
   }
 
-  /** Depth as inverse distance: near is bright, black was not measured. */
+  /**
+   * Near is bright, black was not measured. Linear in the distance, so that people can be told from
+   * the wall behind them at 4 m too.
+   */
   static BufferedImage shadesOfDepth(BufferedImage depth, double metresPerUnit) throws IOException {
     require(depth.getRaster().getNumBands() == 1, "depth has more than one channel");
     BufferedImage shades =
@@ -67,8 +70,7 @@ final class Pictures {
     if (distance <= 0.0) {
       return 0;
     }
-    double closeness =
-        (1.0 / distance - 1.0 / FARTHEST) / (1.0 / NEAREST - 1.0 / FARTHEST);
+    double closeness = (FARTHEST - distance) / (FARTHEST - NEAREST);
     // The farthest is told from what was not measured.
     return (int) Math.round(Math.max(0.1, Math.min(1.0, closeness)) * WHITE);
   }

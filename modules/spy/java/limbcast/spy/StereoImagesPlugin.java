@@ -16,14 +16,11 @@ public final class StereoImagesPlugin implements SpyPlugin {
 
   @Override
   public Action getAction(JDesktopPane desktop, ChannelData channel) {
-    return new OpenView<>(
-        "Images",
+    return ImagesView.open(
         desktop,
         channel,
         stereo_images_t.class,
         stereo_images_t::new,
-        () ->
-            new ImagesView<>(
-                pair -> Arrays.asList(Pictures.decode(pair.left), Pictures.decode(pair.right))));
+        pair -> Arrays.asList(Pictures.decode(pair.left), Pictures.decode(pair.right)));
   }
 }

@@ -68,8 +68,8 @@ public class PicturesTest {
     BufferedImage shades = Pictures.shadesOfDepth(decoded, 0.001);
     assertEquals(0, shades.getRaster().getSample(0, 0, 0));
     assertEquals(255, shades.getRaster().getSample(1, 0, 0));
-    // (1/1 - 1/8) / (1/0.5 - 1/8) of 255.
-    assertEquals(119, shades.getRaster().getSample(2, 0, 0));
+    // (8 - 1) / (8 - 0.5) of 255.
+    assertEquals(238, shades.getRaster().getSample(2, 0, 0));
     assertEquals(26, shades.getRaster().getSample(3, 0, 0));
   }
 
