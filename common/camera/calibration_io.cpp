@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
@@ -200,10 +201,25 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
   return calibration;
 }
 
-cv::FileStorage open_for_writing(const std::string& path) {
-  cv::FileStorage file(path, cv::FileStorage::WRITE | cv::FileStorage::FORMAT_YAML);
-  if (!file.isOpened()) throw std::runtime_error(path + ": cannot be written");
-  return file;
+/// Collects the text of a YAML file.
+cv::FileStorage yaml_text() {
+  constexpr int kMode =
+      cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML;
+  return {".yml", kMode};
+}
+
+/// The file is there whole or, where the program or the disk fails, as it was before.
+void write_whole(const std::string& path, const std::string& text) {
+  const std::string unfinished = path + ".unfinished";
+  std::ofstream file(unfinished, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(unfinished, path, error);
+  if (file && !error) return;
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  throw std::runtime_error(path + ": cannot be written");
 }
 
 void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
@@ -277,21 +293,23 @@ StereoCalibration read_stereo_calibration(const std::string& path) {
 }
 
 void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration) {
-  cv::FileStorage file = open_for_writing(path);
+  cv::FileStorage file = yaml_text();
   write_size(file, calibration.left.camera);
   write_lens(file, "K1", "D1", calibration.left);
   write_lens(file, "K2", "D2", calibration.right);
   file << "R" << cv::Mat(to_cv(calibration.R)) << "T" << cv::Mat(to_cv(calibration.T));
   if (calibration.rectification) write_rectification(file, *calibration.rectification);
   write_mounting(file, calibration.mounting);
+  write_whole(path, file.releaseAndGetString());
 }
 
 void write_depth_calibration(const std::string& path, const DepthCalibration& calibration) {
-  cv::FileStorage file = open_for_writing(path);
+  cv::FileStorage file = yaml_text();
   write_size(file, calibration.color.camera);
   write_lens(file, "camera_matrix", "distortion_coefficients", calibration.color);
   file << "depth_scale" << calibration.depth_scale_m;
   write_mounting(file, calibration.mounting);
+  write_whole(path, file.releaseAndGetString());
 }
 
 DepthCalibration read_depth_calibration(const std::string& path) {

@@ -77,6 +77,21 @@ void declare_playback(config::Section& section, SourceProcessOptions& options) {
   section.add("truth-channel", options.truth_channel, "channel of the truth beside a recording");
 }
 
+void declare_cameras(config::Section& section, SourceOptions& options) {
+  section.add("camera-width", options.camera.width, "px",
+              "ask the camera for this size, 0 = its own", {0, 16384});
+  section.add("camera-height", options.camera.height, "px",
+              "ask the camera for this size, 0 = its own", {0, 16384});
+  section.add("camera-rate", options.camera.rate_hz, "frames/s",
+              "ask the camera for this rate, 0 = its own", {0.0, 1000.0});
+  section.add("exposure", options.camera.exposure, "driver's unit, UVC: 100 us",
+              "fixed exposure; nan = as the camera has it");
+  section.add("gain", options.camera.gain, "driver's unit",
+              "fixed gain; nan = as the camera has it");
+  section.add("pair-tolerance-ms", options.pair_tolerance_ms, "ms",
+              "largest difference in time of the two images of two cameras", {0.0, 1000.0});
+}
+
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key) {
   SourceOptions& source = options.source;
@@ -90,18 +105,7 @@ void declare(config::Section& section, SourceProcessOptions& options,
   declare_playback(section, options);
   section.add("jpeg-quality", source.jpeg_quality, "",
               "of pictures that are no JPEG yet; 0: PNG, without loss", {0, 100});
-  section.add("camera-width", source.camera.width, "px",
-              "ask the camera for this size, 0 = its own", {0, 16384});
-  section.add("camera-height", source.camera.height, "px",
-              "ask the camera for this size, 0 = its own", {0, 16384});
-  section.add("camera-rate", source.camera.rate_hz, "frames/s",
-              "ask the camera for this rate, 0 = its own", {0.0, 1000.0});
-  section.add("exposure", source.camera.exposure, "driver's unit, UVC: 100 us",
-              "fixed exposure; nan = as the camera has it");
-  section.add("gain", source.camera.gain, "driver's unit",
-              "fixed gain; nan = as the camera has it");
-  section.add("pair-tolerance-ms", source.pair_tolerance_ms, "ms",
-              "largest difference in time of the two images of two cameras", {0.0, 1000.0});
+  declare_cameras(section, source);
   section.add("open-timeout-s", source.open_timeout_s, "s", "a camera must open within this time",
               {0.1, 3600.0});
   section.add("stall-timeout-s", source.stall_timeout_s, "s",

@@ -28,6 +28,8 @@ struct SourceProcessOptions {
 
 /// Declares those of a recording and its playback: sensor, log, rate, loop, times, gravity.
 void declare_playback(config::Section& section, SourceProcessOptions& options);
+/// Declares those of live cameras: size, rate, exposure, gain, pairing.
+void declare_cameras(config::Section& section, SourceOptions& options);
 /// Declares all; `second_key` is the option for the second camera, e.g. "source-right".
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key);

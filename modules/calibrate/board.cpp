@@ -180,6 +180,20 @@ std::optional<BoardPoints> find_board(const cv::Mat& grey, const Board& board) {
   return find_chessboard(grey, board);
 }
 
+std::optional<BoardPoints> glimpse_board(const cv::Mat& grey, const Board& board) {
+  if (board.kind != BoardKind::kChessboard) return find_board(grey, board);
+  constexpr int kLargestWidth_px = 640;
+  const double scale = std::min(1.0, static_cast<double>(kLargestWidth_px) / grey.cols);
+  cv::Mat small;
+  cv::resize(grey, small, {}, scale, scale, cv::INTER_AREA);
+  constexpr int kFlags =
+      cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
+  std::vector<cv::Point2f> corners;
+  if (!cv::findChessboardCorners(small, lattice(board), corners, kFlags)) return std::nullopt;
+  for (cv::Point2f& corner : corners) corner /= scale;
+  return numbered(std::move(corners));
+}
+
 void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& right) {
   if (board.kind == BoardKind::kCharuco) return;
   const cv::Point2f diagonal_left = left.pixels.back() - left.pixels.front();

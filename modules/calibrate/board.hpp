@@ -50,6 +50,9 @@ Board to_board(const BoardOptions& options);
 /// all of them or nothing; ChArUco: those that are seen.
 std::optional<BoardPoints> find_board(const cv::Mat& grey, const Board& board);
 
+/// The same, quickly rather than exactly and in all cases: to see where a video shows the board.
+std::optional<BoardPoints> glimpse_board(const cv::Mat& grey, const Board& board);
+
 /// Chessboards and circles look the same upside down: gives `right` the numbering of `left`, as
 /// both cameras of a pair stand the same way up.
 void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& right);

@@ -87,20 +87,42 @@ double share_of(const cv::Mat& covered) {
   return cv::countNonZero(covered) / static_cast<double>(covered.total());
 }
 
-std::vector<std::string> advise(const StereoFit& fit, const cv::Size& image_size,
-                                const AdviceParams& params) {
+double least_coverage(const std::vector<View>& views, const cv::Size& image_size) {
+  return std::min(share_of(covered_area(views, Side::kLeft, image_size)),
+                  share_of(covered_area(views, Side::kRight, image_size)));
+}
+
+std::vector<std::string> advise_places(const std::vector<View>& views, const cv::Size& image_size,
+                                       const AdviceParams& params) {
   std::vector<std::string> advice;
   for (const auto& [side, name] :
        {std::pair(Side::kLeft, "left"), std::pair(Side::kRight, "right")}) {
     const std::vector<std::string> empty =
-        empty_regions(covered_area(fit.views, side, image_size), params.min_region_share);
+        empty_regions(covered_area(views, side, image_size), params.min_region_share);
     if (!empty.empty())
       advice.push_back(formatted("show the board in these parts of the %s image: ", name) +
                        joined(empty));
   }
+  return advice;
+}
+
+std::vector<std::string> advise(const StereoFit& fit, const cv::Size& image_size,
+                                const AdviceParams& params) {
+  std::vector<std::string> advice = advise_places(fit.views, image_size, params);
   advise_tilt(fit.figures, params, advice);
   advise_distance(fit.figures, params, advice);
   return advice;
+}
+
+bool complete(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
+              const CompletionParams& params) {
+  const auto taken = static_cast<int>(views.size());
+  if (taken >= params.most_views) return true;
+  // What needs no fit comes first: a fit takes seconds.
+  if (taken < params.enough_views || !advise_places(views, image_size).empty()) return false;
+  const StereoFit fit = fit_stereo(views, board, image_size);
+  return advise(fit, image_size).empty() &&
+         judge(fit, least_coverage(fit.views, image_size)).faults.empty();
 }
 
 }  // namespace limbcast::calibrate

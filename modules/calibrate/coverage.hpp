@@ -14,6 +14,8 @@ enum class Side { kLeft, kRight };
 cv::Mat covered_area(const std::vector<View>& views, Side side, const cv::Size& image_size);
 /// Share of the image [0, 1].
 double share_of(const cv::Mat& covered);
+/// Of the camera whose image is covered less.
+double least_coverage(const std::vector<View>& views, const cv::Size& image_size);
 
 struct AdviceParams {
   /// A ninth of the image counts as covered from this share of its area.
@@ -27,8 +29,26 @@ struct AdviceParams {
   double distance_ratio = 1.4;
 };
 
+/// Which parts of the images no board has covered yet, a sentence for each camera.
+std::vector<std::string> advise_places(const std::vector<View>& views, const cv::Size& image_size,
+                                       const AdviceParams& params = {});
+
 /// Which shots to add, a sentence each; empty where nothing is missing.
 std::vector<std::string> advise(const StereoFit& fit, const cv::Size& image_size,
                                 const AdviceParams& params = {});
+
+struct CompletionParams {
+  /// So many views are enough where nothing is missing in them; 15 to 30 are the usual advice, and
+  /// rendered boards reach focal length and baseline to 0.3 and 0.5 % with 10.
+  int enough_views = 15;
+  /// So many are enough in any case: errors fall with the root of their number, so more views cost
+  /// time and give little.
+  int most_views = 30;
+};
+
+/// Whether a video or camera has shown enough: a calibration from these views may be used, and no
+/// shots are to be added.
+bool complete(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
+              const CompletionParams& params = {});
 
 }  // namespace limbcast::calibrate

@@ -6,12 +6,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/camera/calibration_io.hpp"
+#include "common/config/log.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
 #include "common/sources/log_playback.hpp"
+#include "common/sources/source_process.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -39,9 +41,9 @@ void visit_folder(const std::string& folder, const Take& take) {
   for (const RecordedFrame& frame : find_recording(folder, kNames, {}).frames) {
     const EncodedImage left = read_encoded_image(frame.first_path);
     const EncodedImage right = read_encoded_image(frame.second_path);
-    const GreyPair pair{frame.time.name, grey(left, frame.first_path),
-                        grey(right, frame.second_path)};
-    if (lcm_io::stop_requested() || !take(pair)) return;
+    check_not_told_to_end();
+    if (!take({frame.time.name, grey(left, frame.first_path), grey(right, frame.second_path)}))
+      return;
   }
 }
 
@@ -49,26 +51,43 @@ void visit_log(const std::string& log, const Take& take) {
   lcm_io::LogReader reader(log);
   bool found = false;
   while (const auto event = reader.next()) {
-    if (lcm_io::stop_requested()) return;
+    check_not_told_to_end();
     if (event->channel != kImagesChannel) continue;
     found = true;
     const StereoImages images = lcm_io::from_message(lcm_io::decode<stereo_images_t>(event->data));
-    const GreyPair pair{std::to_string(images.stamp.utime), grey(images.left), grey(images.right)};
-    if (!take(pair)) return;
+    const std::int64_t utime = images.stamp.utime;
+    if (!take({std::to_string(utime), grey(images.left), grey(images.right), utime})) return;
   }
   if (!found) throw InputError(log + ": holds no pairs on " + kImagesChannel);
 }
+
+/// Tells what is wrong with a camera, once until it is well again.
+class ProblemLog {
+ public:
+  void tell(const std::string& problem) {
+    if (problem != told_ && !problem.empty()) config::log(config::LogLevel::kWarning, problem);
+    told_ = problem;
+  }
+
+ private:
+  std::string told_;
+};
 
 void visit_stream(const SourceOptions& options, const Take& take) {
   PairFormat format;
   format.names = kNames;
   format.jpeg_quality = 0;  // without loss: corners are wanted to a tenth of a pixel
   const std::unique_ptr<PairSource> source = open_source(options, format);
-  while (!source->ended() && !lcm_io::stop_requested()) {
+  config::log(config::LogLevel::kInfo, source->description());
+  ProblemLog problems;
+  while (!source->ended()) {
+    check_not_told_to_end();
     const std::optional<FramePair> frame = source->next();
+    problems.tell(source->statistics().problem);
     if (!frame) continue;
     const std::string name = "frame " + std::to_string(frame->stamp.sequence);
-    if (!take({name, grey(frame->first, name), grey(frame->second, name)})) return;
+    if (!take({name, grey(frame->first, name), grey(frame->second, name), frame->stamp.utime}))
+      return;
   }
 }
 
@@ -90,12 +109,11 @@ void declare_source(config::Section& section, SourceOptions& options) {
               "gst:PIPELINE or a stream's URL");
   section.add("source-right", options.second_source,
               "camera or video of the right image, where it has one of its own");
-  section.add("camera-width", options.camera.width, "px",
-              "ask the camera for this size, 0 = its own", {0, 16384});
-  section.add("camera-height", options.camera.height, "px",
-              "ask the camera for this size, 0 = its own", {0, 16384});
-  section.add("pair-tolerance-ms", options.pair_tolerance_ms, "ms",
-              "largest difference in time of the two images of two cameras", {0.0, 1000.0});
+  declare_cameras(section, options);
+}
+
+void check_not_told_to_end() {
+  if (lcm_io::stop_requested()) throw std::runtime_error("told to end; nothing is written");
 }
 
 bool in_sequence(const std::string& source) { return !std::filesystem::is_directory(source); }

@@ -11,6 +11,9 @@
 
 namespace limbcast::calibrate {
 
+/// Throws std::runtime_error where SIGINT or SIGTERM came: nobody wants the result any more.
+void check_not_told_to_end();
+
 /// Declares --source and what belongs to it.
 void declare_source(config::Section& section, SourceOptions& options);
 
@@ -18,8 +21,8 @@ void declare_source(config::Section& section, SourceOptions& options);
 bool in_sequence(const std::string& source);
 
 /// Calls `take` with each pair of a folder (NAME_left, NAME_right), an LCM log, a video or cameras,
-/// until the source ends, the program is told to end, or `take` returns false. Throws InputError
-/// where the source cannot be used.
+/// until the source ends or `take` returns false. Throws InputError where the source cannot be
+/// used, std::runtime_error where the program is told to end.
 void visit_pairs(const SourceOptions& options, const std::function<bool(const GreyPair&)>& take);
 
 /// The calibration of `path`; without a path the one that an LCM log carries. Throws InputError

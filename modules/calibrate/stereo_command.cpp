@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdio>
 
 #include "common/camera/calibration_io.hpp"
@@ -17,7 +18,7 @@ struct Options {
   SourceOptions source;
   BoardOptions board;
   std::string output, picture;
-  int views = 30;
+  CompletionParams completion;
 };
 
 void declare(config::Section& section, Options& options) {
@@ -26,23 +27,62 @@ void declare(config::Section& section, Options& options) {
   section.add("output", options.output, "calibration file to write (OpenCV YAML)");
   section.add("picture", options.picture,
               "picture to draw of the covered area and the errors (PNG)");
-  section.add("views", options.views, "",
-              "from a video or camera, stop when so many views are taken", {5, 500});
-}
-
-ViewCollector collect(const Options& options, const Board& board) {
-  const bool sequence = in_sequence(options.source.source);
-  ViewCollector collector(board, sequence);
-  visit_pairs(options.source, [&](const GreyPair& pair) {
-    if (!collector.add(pair)) return true;
-    const auto taken = static_cast<int>(collector.views().size());
-    config::log(config::LogLevel::kInfo, formatted("%s: view %d taken", pair.name.c_str(), taken));
-    return !sequence || taken < options.views;
-  });
-  return collector;
+  section.add("views", options.completion.most_views, "",
+              "from a video or camera, stop when so many views are taken, or earlier where nothing "
+              "is missing",
+              {5, 500});
 }
 
 void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
+
+/// Tells those who hold the board why nothing happens, not for each frame.
+class Hints {
+ public:
+  void tell(const RejectedView& frame) {
+    constexpr std::chrono::seconds kPeriod{2};
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_at_ < kPeriod) return;
+    config::log(config::LogLevel::kInfo, frame.name + ": " + frame.reason);
+    told_at_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point told_at_ = std::chrono::steady_clock::now();
+};
+
+void tell_taken(const ViewCollector& collector) {
+  const std::vector<View>& views = collector.views();
+  config::log(
+      config::LogLevel::kInfo,
+      formatted("%s: view %zu taken, boards cover %.0f %% of the image", views.back().name.c_str(),
+                views.size(), 100.0 * least_coverage(views, collector.image_size())));
+  for (const std::string& sentence : advise_places(views, collector.image_size()))
+    config::log(config::LogLevel::kInfo, sentence);
+}
+
+ViewCollector collect_shots(const SourceOptions& source, const Board& board) {
+  ViewCollector collector(board, false);
+  visit_pairs(source, [&](const GreyPair& pair) {
+    collector.add(pair);
+    return true;
+  });
+  print(rejected_table(collector.rejected()));
+  return collector;
+}
+
+ViewCollector collect_from_video(const Options& options, const Board& board) {
+  ViewCollector collector(board, true);
+  Hints hints;
+  visit_pairs(options.source, [&](const GreyPair& pair) {
+    if (!collector.add(pair)) {
+      hints.tell(collector.rejected().back());
+      return true;
+    }
+    tell_taken(collector);
+    return !complete(collector.views(), board, collector.image_size(), options.completion);
+  });
+  return collector;
+}
 
 void print_advice(const std::vector<std::string>& advice) {
   for (const std::string& sentence : advice) print("to add: " + sentence + "\n");
@@ -50,9 +90,7 @@ void print_advice(const std::vector<std::string>& advice) {
 
 /// True: the result may be used; else it says why not.
 bool accept(const StereoFit& fit, const cv::Size& size) {
-  const double coverage = std::min(share_of(covered_area(fit.views, Side::kLeft, size)),
-                                   share_of(covered_area(fit.views, Side::kRight, size)));
-  const Verdict verdict = judge(fit, coverage);
+  const Verdict verdict = judge(fit, least_coverage(fit.views, size));
   for (const std::string& warning : verdict.warnings) print("warning: " + warning + "\n");
   for (const std::string& fault : verdict.faults) print("refused: " + fault + "\n");
   return verdict.faults.empty();
@@ -60,13 +98,15 @@ bool accept(const StereoFit& fit, const cv::Size& size) {
 
 bool calibrate(const Options& options) {
   const Board board = to_board(options.board);
-  const ViewCollector collector = collect(options, board);
-  if (!in_sequence(options.source.source)) print(rejected_table(collector.rejected()));
+  const ViewCollector collector = in_sequence(options.source.source)
+                                      ? collect_from_video(options, board)
+                                      : collect_shots(options.source, board);
   const StereoFit fit = fit_stereo(collector.views(), board, collector.image_size());
   print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
   print_advice(advise(fit, collector.image_size()));
   if (!options.picture.empty()) write_picture(options.picture, draw_report(fit));
   if (!accept(fit, collector.image_size())) return false;
+  check_not_told_to_end();
   write_stereo_calibration(options.output, fit.calibration);
   print("written: " + options.output + "\n");
   return true;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <opencv2/core.hpp>
 
 #include "common/formatted.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast::calibrate {
 namespace {
+
+constexpr double kMicroseconds_s = 1e-6;
 
 std::string size_text(const cv::Size& size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
@@ -21,6 +24,35 @@ double mean_distance_px(const BoardPoints& a, const BoardPoints& b) {
   for (std::size_t i = 0; i < common.ids.size(); ++i)
     sum += cv::norm(common.left[i] - common.right[i]);
   return sum / static_cast<double>(common.ids.size());
+}
+
+/// Both about their own middle.
+void centre(CommonPoints& common) {
+  for (std::vector<cv::Point2f>* points : {&common.left, &common.right}) {
+    const cv::Scalar middle = cv::mean(*points);
+    for (cv::Point2f& point : *points)
+      point -= cv::Point2f(static_cast<float>(middle[0]), static_cast<float>(middle[1]));
+  }
+}
+
+/// How far the points of `b` stand from those of `a` where the board's place does not count, as a
+/// share of the board's size (RMS distance from its middle).
+double shape_change(const BoardPoints& a, const BoardPoints& b) {
+  CommonPoints common = common_points(a, b);
+  if (common.ids.empty()) return std::numeric_limits<double>::infinity();
+  centre(common);
+  double differences = 0.0;
+  double sizes = 0.0;
+  for (std::size_t i = 0; i < common.ids.size(); ++i) {
+    const cv::Point2f difference = common.right[i] - common.left[i];
+    differences += difference.dot(difference);
+    sizes += common.left[i].dot(common.left[i]);
+  }
+  return std::sqrt(differences / sizes);
+}
+
+std::string not_found_in(const char* side) {
+  return formatted("board not found in the %s image", side);
 }
 
 }  // namespace
@@ -43,16 +75,17 @@ CommonPoints common_points(const BoardPoints& left, const BoardPoints& right) {
 
 bool ViewCollector::add(const GreyPair& pair) {
   check_size(pair);
+  // Finding the points exactly takes some tenths of a second, too long for each frame of a camera.
+  std::string reason = in_sequence_ ? why_wait(pair) : "";
   std::optional<View> view;
-  std::string reason = find_view(pair, view);
-  if (view && reason.empty()) reason = why_not(*view);
-  previous_ = view;
-  if (reason.empty()) {
-    views_.push_back(*view);
-  } else {
+  if (reason.empty()) reason = find_view(pair, view);
+  if (!reason.empty()) {
     rejected_.push_back({pair.name, reason});
+    return false;
   }
-  return reason.empty();
+  views_.push_back(*view);
+  if (in_sequence_) taken_glimpses_.push_back(previous_->view);
+  return true;
 }
 
 void ViewCollector::check_size(const GreyPair& pair) {
@@ -64,12 +97,44 @@ void ViewCollector::check_size(const GreyPair& pair) {
   }
 }
 
+/// Why a frame of a video is not worth a closer look, empty where it is.
+std::string ViewCollector::why_wait(const GreyPair& pair) {
+  std::optional<BoardPoints> left = glimpse_board(pair.left, board_);
+  std::optional<BoardPoints> right = left ? glimpse_board(pair.right, board_) : std::nullopt;
+  if (!right) {
+    previous_.reset();
+    return not_found_in(left ? "right" : "left");
+  }
+  align_numbering(board_, *left, *right);
+  Glimpse glimpse{{pair.name, std::move(*left), std::move(*right)}, pair.utime};
+  std::string reason = why_not_here(glimpse);
+  previous_ = std::move(glimpse);
+  return reason;
+}
+
+std::string ViewCollector::why_not_here(const Glimpse& glimpse) const {
+  if (!previous_) return "the board has just come into view";
+  const double seconds = kMicroseconds_s * static_cast<double>(glimpse.utime - previous_->utime);
+  const double motion_px = std::max(mean_distance_px(glimpse.view.left, previous_->view.left),
+                                    mean_distance_px(glimpse.view.right, previous_->view.right));
+  if (motion_px > params_.max_speed_px_s * seconds)
+    return formatted("moved by %.1f px in %.2f s (limit %.0f px/s)", motion_px, seconds,
+                     params_.max_speed_px_s);
+  for (const View& taken : taken_glimpses_) {
+    const double shift_px = mean_distance_px(glimpse.view.left, taken.left);
+    if (shift_px < params_.min_shift * image_size_.width &&
+        shape_change(taken.left, glimpse.view.left) < params_.min_shape_change)
+      return "stands where it stood in " + taken.name;
+  }
+  return "";
+}
+
 /// Why there is no view, empty where there is one.
-std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& view) {
+std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& view) const {
   std::optional<BoardPoints> left = find_board(pair.left, board_);
-  if (!left) return "board not found in the left image";
+  if (!left) return not_found_in("left");
   std::optional<BoardPoints> right = find_board(pair.right, board_);
-  if (!right) return "board not found in the right image";
+  if (!right) return not_found_in("right");
   align_numbering(board_, *left, *right);
   view = View{pair.name, std::move(*left), std::move(*right)};
   for (const auto& [image, points, side] : {std::tuple(&pair.left, &view->left, "left"),
@@ -80,25 +145,10 @@ std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& 
           "blurred: edges in the %s image are %.1f px wide (limit %.1f): motion or focus", side,
           *width_px, params_.max_edge_width_px);
   }
-  return "";
-}
-
-std::string ViewCollector::why_not(const View& view) const {
-  const auto num_common = static_cast<int>(common_points(view.left, view.right).ids.size());
+  const auto num_common = static_cast<int>(common_points(view->left, view->right).ids.size());
   if (num_common < params_.min_points)
     return formatted("both images show %d points of the board, %d are needed", num_common,
                      params_.min_points);
-  if (!in_sequence_) return "";
-  if (!previous_) return "the board has just come into view";
-  const double motion_px = std::max(mean_distance_px(view.left, previous_->left),
-                                    mean_distance_px(view.right, previous_->right));
-  if (motion_px > params_.max_motion_px)
-    return formatted("moved by %.1f px since the frame before (limit %.1f)", motion_px,
-                     params_.max_motion_px);
-  for (const View& other : views_) {
-    if (mean_distance_px(view.left, other.left) < params_.min_change * image_size_.width)
-      return "stands where it stood in " + other.name;
-  }
   return "";
 }
 

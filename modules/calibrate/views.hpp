@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ namespace limbcast::calibrate {
 struct GreyPair {
   std::string name;
   cv::Mat left, right;
+  std::int64_t utime = 0;  ///< when it was taken [us]; of separate shots nobody asks
 };
 
 /// The board as both cameras see it at once.
@@ -32,13 +34,16 @@ struct ViewParams {
   /// Edges of a sharp picture are up to about 3 px wide, as cv::estimateChessboardSharpness says;
   /// OpenCV's own example pairs reach 3.4. Wider: motion or focus.
   double max_edge_width_px = 5.0;
-  /// In a video or live: how far the points may move from one frame to the next [px], more is
-  /// motion that two cameras do not see at the same time; chosen so that hands that hold a board
-  /// still pass.
-  double max_motion_px = 2.0;
-  /// In a video or live: a view that differs less than this from all others adds nothing, as a
-  /// share of the image's width.
-  double min_change = 0.04;
+  /// In a video or live: how fast the points may move [px/s]. Two cameras that are paired within
+  /// 10 ms (--pair-tolerance-ms) then see them 0.3 px apart, no more than a good view's error.
+  /// Hands that hold a board still pass. A speed, as the frames of a busy computer lie far apart.
+  double max_speed_px_s = 30.0;
+  /// In a video or live: a view adds something where the board has moved by this share of the
+  /// image's width; some thirty such places cover the image.
+  double min_shift = 0.04;
+  /// Or where it looks different: its points moved against one another by this share of its size.
+  /// That is a tilt from 0 to 25 degrees, or a fourteenth of the distance.
+  double min_shape_change = 0.07;
 };
 
 /// Gathers views that are fit for calibration and says why others are not.
@@ -56,15 +61,23 @@ class ViewCollector {
   const cv::Size& image_size() const { return image_size_; }
 
  private:
+  /// Where a frame of a video shows the board, roughly.
+  struct Glimpse {
+    View view;
+    std::int64_t utime = 0;
+  };
+
   void check_size(const GreyPair& pair);
-  std::string find_view(const GreyPair& pair, std::optional<View>& view);
-  std::string why_not(const View& view) const;
+  std::string why_wait(const GreyPair& pair);
+  std::string why_not_here(const Glimpse& glimpse) const;
+  std::string find_view(const GreyPair& pair, std::optional<View>& view) const;
 
   Board board_;
   bool in_sequence_;
   ViewParams params_;
   cv::Size image_size_;
-  std::optional<View> previous_;  ///< in the pair before, good or not
+  std::optional<Glimpse> previous_;   ///< in the pair before, good or not
+  std::vector<View> taken_glimpses_;  ///< one for each view of a video
   std::vector<View> views_;
   std::vector<RejectedView> rejected_;
 };

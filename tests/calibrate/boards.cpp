@@ -124,6 +124,22 @@ std::vector<BoardPose> varied_poses(const Board& board, int count) {
   return poses;
 }
 
+std::vector<BoardPose> thorough_poses(const Board& board) {
+  constexpr double kTilt_rad = 0.35;
+  std::vector<BoardPose> poses;
+  for (const double z_squares : {14.0, 18.0, 26.0}) {
+    const double z_m = z_squares * board.square_m;
+    for (int i = 0; i < 9; ++i) {
+      const double tilt = i % 4 < 2 ? kTilt_rad : -kTilt_rad;
+      const cv::Vec3d rotation = i % 2 == 0 ? cv::Vec3d(tilt, 0.0, 0.0) : cv::Vec3d(0.0, tilt, 0.0);
+      const double x_m = z_m * 0.36 * (i % 3 - 1) + 0.06;
+      const double y_m = z_m * 0.3 * (i / 3 - 1);
+      poses.push_back(pose_about_middle(board, rotation, {x_m, y_m, z_m}));
+    }
+  }
+  return poses;
+}
+
 std::vector<BoardPose> frontal_poses(const Board& board, int count) {
   std::vector<BoardPose> poses;
   for (int i = 0; i < count; ++i)

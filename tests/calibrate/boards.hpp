@@ -20,7 +20,9 @@ struct BoardPose {
 
 /// Poses that fill both images, tilted either way, near and far.
 std::vector<BoardPose> varied_poses(const Board& board, int count);
-/// The same places, but parallel to the image and all at one distance.
+/// Poses that leave nothing to add: all over both images, tilted either way, near and far.
+std::vector<BoardPose> thorough_poses(const Board& board);
+/// The places of varied_poses, but parallel to the image and all at one distance.
 std::vector<BoardPose> frontal_poses(const Board& board, int count);
 
 /// Where the board's points stand in both images, with noise of `sigma_px`: no pictures needed.

@@ -143,5 +143,64 @@ TEST(Advise, AsksForTiltDistanceAndEmptyParts) {
   EXPECT_THAT(advice, Contains(HasSubstr("bottom right")));
 }
 
+/// What a camera sees that watches as the board is held at one place after the other.
+class Complete : public ::testing::Test {
+ protected:
+  std::vector<View> seen(const std::vector<BoardPose>& poses) const {
+    return project_boards(board_, poses, true_cameras());
+  }
+  bool complete_with(const std::vector<View>& views) const {
+    return complete(views, board_, kVga, params_);
+  }
+  /// Large, so that it stands far away: then both cameras see it at the image's edge too.
+  Board board_ = [] {
+    Board board;
+    board.square_m = 0.05;
+    return board;
+  }();
+  CompletionParams params_;
+};
+
+TEST_F(Complete, IsWhatShowsTheBoardEverywhereAndInAllWays) {
+  const std::vector<View> views = seen(thorough_poses(board_));
+  ASSERT_LT(static_cast<int>(views.size()), params_.most_views);
+  EXPECT_TRUE(complete_with(views));
+}
+
+TEST_F(Complete, IsNotWhatHasFewViews) {
+  std::vector<View> views = seen(thorough_poses(board_));
+  params_.enough_views = static_cast<int>(views.size()) + 1;
+  EXPECT_FALSE(complete_with(views));
+}
+
+TEST_F(Complete, IsNotWhatLeavesACornerOfTheImageEmpty) {
+  std::vector<View> views = seen(thorough_poses(board_));
+  params_.enough_views = 10;
+  views.erase(views.begin());       // top left, near
+  views.erase(views.begin() + 8);   // farther
+  views.erase(views.begin() + 16);  // farthest
+  EXPECT_FALSE(complete_with(views));
+}
+
+TEST_F(Complete, IsNotWhatShowsNoTilt) {
+  std::vector<BoardPose> poses = thorough_poses(board_);
+  for (BoardPose& pose : poses) pose.rotation = {};
+  EXPECT_FALSE(complete_with(seen(poses)));
+}
+
+TEST_F(Complete, IsNotWhatWouldBeRefused) {
+  std::vector<View> views = seen(thorough_poses(board_));
+  for (View& view : views) std::swap(view.left, view.right);
+  EXPECT_FALSE(complete_with(views));
+}
+
+TEST_F(Complete, IsWhatHasAllTheViewsThatWereAskedFor) {
+  std::vector<View> views = seen(varied_poses(board_, 8));
+  params_.most_views = 9;
+  EXPECT_FALSE(complete_with(views));
+  params_.most_views = 8;
+  EXPECT_TRUE(complete_with(views));
+}
+
 }  // namespace
 }  // namespace limbcast::calibrate

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "common/input_error.hpp"
@@ -17,11 +18,13 @@ using ::testing::HasSubstr;
 /// What becomes of pictures of one board pose that is carried about.
 class Views : public ::testing::Test {
  protected:
-  /// The board `right_px` further to the right in the image than at first.
-  GreyPair picture(const std::string& name, double right_px = 0.0) const {
+  /// The board `right_px` further to the right in the image than at first, at `time_s`.
+  GreyPair picture(const std::string& name, double right_px = 0.0, double time_s = 0.0) const {
     BoardPose pose = varied_poses(board_, 1)[0];
     pose.translation_m[0] += right_px * pose.translation_m[2] / true_cameras().left.camera.fx;
-    return render_board(board_, pose, true_cameras(), name);
+    GreyPair pair = render_board(board_, pose, true_cameras(), name);
+    pair.utime = std::llround(1e6 * time_s);
+    return pair;
   }
   std::string reason_for(ViewCollector& collector, const GreyPair& pair) const {
     return collector.add(pair) ? "" : collector.rejected().back().reason;
@@ -31,21 +34,62 @@ class Views : public ::testing::Test {
 
 TEST_F(Views, OfAVideoAreTakenWhereTheBoardStandsStillAtANewPlace) {
   ViewCollector collector(board_, true);
-  EXPECT_THAT(reason_for(collector, picture("a")), HasSubstr("just come into view"));
-  EXPECT_EQ(reason_for(collector, picture("b", 0.5)), "");
-  EXPECT_THAT(reason_for(collector, picture("c", 0.6)), HasSubstr("stands where it stood in b"));
-  EXPECT_THAT(reason_for(collector, picture("d", 40.0)), HasSubstr("since the frame before"));
-  EXPECT_EQ(reason_for(collector, picture("e", 41.0)), "");
+  EXPECT_THAT(reason_for(collector, picture("a", 0.0, 0.0)), HasSubstr("just come into view"));
+  EXPECT_EQ(reason_for(collector, picture("b", 0.5, 0.1)), "");
+  EXPECT_THAT(reason_for(collector, picture("c", 0.6, 0.2)),
+              HasSubstr("stands where it stood in b"));
+  EXPECT_THAT(
+      reason_for(collector, picture("d", 40.6, 0.3)),
+      ::testing::ContainsRegex("moved by (3[6-9]|40)\\.. px in 0.10 s \\(limit 30 px/s\\)"));
+  EXPECT_EQ(reason_for(collector, picture("e", 41.6, 0.4)), "");
   ASSERT_EQ(collector.views().size(), 2U);
   EXPECT_EQ(collector.views()[1].name, "e");
 }
 
+TEST_F(Views, OfAVideoAreNewWhereTheBoardIsTurnedInItsPlace) {
+  const cv::Vec3d place_m(0.0, 0.0, 0.6);
+  const auto tilted = [&](double degrees, double time_s) {
+    BoardPose pose;
+    pose.rotation = {0.0, degrees * CV_PI / 180.0, 0.0};
+    pose.translation_m = place_m;
+    GreyPair pair = render_board(board_, pose, true_cameras(), "");
+    pair.utime = std::llround(1e6 * time_s);
+    return pair;
+  };
+  ViewCollector collector(board_, true);
+  collector.add(tilted(0.0, 0.0));
+  ASSERT_TRUE(collector.add(tilted(0.0, 0.1)));
+  collector.add(tilted(5.0, 1.0));
+  EXPECT_THAT(reason_for(collector, tilted(5.0, 1.1)), HasSubstr("stands where it stood"));
+  collector.add(tilted(-25.0, 1.2));
+  EXPECT_EQ(reason_for(collector, tilted(-25.0, 1.3)), "");
+}
+
+TEST_F(Views, OfAVideoMayLieFarApartWhereTheBoardHardlyMoves) {
+  // 6 px: motion within a tenth of a second, hands that hold still within half a second.
+  ViewCollector fast(board_, true);
+  fast.add(picture("a", 0.0, 0.0));
+  EXPECT_THAT(reason_for(fast, picture("b", 6.0, 0.1)), HasSubstr("moved by"));
+  ViewCollector slow(board_, true);
+  slow.add(picture("a", 0.0, 0.0));
+  EXPECT_EQ(reason_for(slow, picture("b", 6.0, 0.5)), "");
+}
+
 TEST_F(Views, OfAVideoWaitForAFrameAfterOneWithoutBoard) {
   ViewCollector collector(board_, true);
-  collector.add(picture("a"));
+  collector.add(picture("a", 0.0, 0.0));
   const cv::Mat wall(480, 640, CV_8UC1, cv::Scalar(90));
-  EXPECT_THAT(reason_for(collector, {"wall", wall, wall}), HasSubstr("not found in the left"));
-  EXPECT_THAT(reason_for(collector, picture("b")), HasSubstr("just come into view"));
+  EXPECT_THAT(reason_for(collector, {"wall", wall, wall, 100'000}),
+              HasSubstr("not found in the left"));
+  EXPECT_THAT(reason_for(collector, picture("b", 0.0, 0.2)), HasSubstr("just come into view"));
+}
+
+TEST_F(Views, OfAVideoAreRefusedWhereTheyAreBlurredThoughTheBoardStandsStill) {
+  ViewCollector collector(board_, true);
+  collector.add(picture("a", 0.0, 0.0));
+  GreyPair pair = picture("b", 0.0, 0.1);
+  cv::GaussianBlur(pair.left, pair.left, {}, 3.0);
+  EXPECT_THAT(reason_for(collector, pair), HasSubstr("blurred: edges in the left image"));
 }
 
 TEST_F(Views, OfSingleShotsAreTakenAtOnce) {

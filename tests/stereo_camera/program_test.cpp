@@ -1,8 +1,5 @@
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <limbcast/body_poses_t.hpp>
@@ -10,13 +7,12 @@
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
 
-#include "common/input_error.hpp"
 #include "common/lcm_io/bus.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
-#include "common/sources/video_reader.hpp"
 #include "tests/stereo_camera/recorded_pairs.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/piped_camera.hpp"
 
 namespace limbcast::test {
 namespace {
@@ -199,16 +195,6 @@ TEST_F(PublishingStereoCamera, EndsByItselfWithARecording) {
   EXPECT_THAT(camera_->output(), HasSubstr("3 frames sent"));
 }
 
-/// The plugins that the tests play with: base and good.
-bool has_gstreamer() {
-  try {
-    open_camera("gst:videotestsrc num-buffers=1 ! jpegenc ! jpegdec", {});
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 TEST_F(StereoCameraProgram, PlaysRecordedPairsThroughAPipelineAtTheirRate) {
   if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
   constexpr int kFrames = 10;
@@ -245,33 +231,19 @@ TEST_F(StereoCameraProgram, PlaysRecordedPairsThroughAPipelineAtTheirRate) {
   EXPECT_NEAR(seconds, 0.1 * frames_apart, 0.15);
 }
 
-/// A camera whose frames the test writes: a named pipe of raw pictures, both cameras side by side.
+/// A camera whose frames the test gives, both pictures side by side.
 class CameraThatStalls : public PublishingStereoCamera {
  protected:
   void SetUp() override {
     if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
-    ASSERT_EQ(mkfifo(pipe_.c_str(), 0600), 0);
-    plug_in();
-    start({"--source",
-           "gst:filesrc location=" + pipe_ +
-               " blocksize=18432 ! rawvideoparse format=bgr width=128" +
-               " height=48 framerate=30/1",
-           "--reopen=" + std::string(reopens() ? "true" : "false")});
+    live_.emplace(folder_ + "/camera", kBoth.size());
+    start({"--source", live_->source(), "--reopen=" + std::string(reopens() ? "true" : "false")});
   }
   virtual bool reopens() const { return false; }
-  void TearDown() override { end(); }
-  void plug_in() { file_ = open(pipe_.c_str(), O_RDWR | O_CLOEXEC); }
-  void give_picture() const {
-    const std::vector<std::uint8_t> picture(kPictureBytes, 99);
-    ASSERT_EQ(write(file_, picture.data(), picture.size()), static_cast<ssize_t>(picture.size()));
-  }
-  void end() {
-    if (file_ >= 0) close(file_);
-    file_ = -1;
-  }
-  static constexpr std::size_t kPictureBytes = 128 * 48 * 3;
-  std::string pipe_ = folder_ + "/camera";
-  int file_ = -1;
+  void give_picture() { ASSERT_TRUE(live_->give(kBoth, *camera_)) << camera_->output(); }
+
+  const cv::Mat kBoth{kHeight, 2 * kWidth, CV_8UC1, cv::Scalar(99)};
+  std::optional<PipedCamera> live_;
 };
 
 TEST_F(CameraThatStalls, IsToldInTheStatusAndGoesOn) {
@@ -301,7 +273,7 @@ TEST_F(CameraThatStalls, EndsTheProgramWithTheStream) {
   give_picture();
   give_picture();
   ASSERT_TRUE(wait_for([this] { return !images_.empty(); }));
-  end();
+  live_->unplug();
   EXPECT_EQ(camera_->wait(), 0) << camera_->output();
   EXPECT_THAT(camera_->output(), HasSubstr("gives no frames any more"));
 }
@@ -315,11 +287,11 @@ TEST_F(CameraThatIsUnplugged, IsOpenedAgainWhenItComesBack) {
   give_picture();
   give_picture();
   ASSERT_TRUE(wait_for([this] { return !images_.empty(); }));
-  end();
+  live_->unplug();
   ASSERT_TRUE(wait_for([this] { return status_ && status_->state == "failing"; }));
   EXPECT_THAT(status_->last_error, HasSubstr("gives no frames any more (unplugged or ended)"));
 
-  plug_in();
+  live_->plug_in();
   const std::size_t before = images_.size();
   // It must be fed on, or it is told to stall.
   ASSERT_TRUE(wait_for([&] {
