@@ -12,7 +12,7 @@ packages_test=(
   libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev
   clang-format clang-tidy jq
   default-jdk-headless default-jre liblcm-java libjchart2d-java junit4
-  xvfb xdotool imagemagick
+  xvfb xdotool imagemagick poppler-utils
   libfaketime systemd help2man
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good)
 

@@ -1,21 +1,37 @@
 #include <cstdio>
+#include <filesystem>
 #include <opencv2/core/mat.hpp>
 
 #include "common/config/log.hpp"
+#include "common/formatted.hpp"
 #include "modules/calibrate/board.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/output.hpp"
+#include "modules/calibrate/pdf.hpp"
 
 namespace limbcast::calibrate {
+namespace {
+
+bool is_pdf(const std::string& path) { return std::filesystem::path(path).extension() == ".pdf"; }
+
+/// What those who find the sheet later need for --board, --columns, --rows and --square-mm.
+std::string caption_of(const BoardOptions& options) {
+  return formatted("limbcast %s, --columns %d --rows %d, squares of %g mm where printed at 100 %%",
+                   options.kind.c_str(), options.columns, options.rows, options.square_mm);
+}
+
+}  // namespace
 
 bool run_board(int argc, const char* const* argv) {
   constexpr double kMillimetres = 1e3, kMillimetresPerInch = 25.4;
   BoardOptions options;
   std::string output;
+  std::string paper = "a4";
   double dots_per_inch = 300.0;
   config::Section section("calibrate");
   declare(section, options);
-  section.add("output", output, "picture to write (PNG), of true size when printed at 100 %");
+  section.add("output", output, "file to write, .pdf or .png, of true size when printed at 100 %");
+  section.add_choice("paper", paper, {"a4", "a3", "letter"}, "sheet of a PDF");
   section.add("dpi", dots_per_inch, "pixels per inch",
               "resolution, rounded to whole pixels a square", {50.0, 2400.0});
   config::Parser parser("limbcast-calibrate board", "Draws a board to print in true size.");
@@ -33,7 +49,11 @@ bool run_board(int argc, const char* const* argv) {
                              " pixels, must be at least 16; raise 'dpi' or 'square-mm'");
   const double pixels_per_m = square_px / board.square_m;
   const cv::Mat image = draw_board(board, square_px);
-  write_png_of_size(output, image, pixels_per_m);
+  if (is_pdf(output)) {
+    write_pdf_of_size(output, image, pixels_per_m, paper_of(paper), caption_of(options));
+  } else {
+    write_png_of_size(output, image, pixels_per_m);
+  }
   std::printf(
       "written: %s, %.0f x %.0f mm; print at 100 %%, measure a square and tell it with "
       "--square-mm\n",
