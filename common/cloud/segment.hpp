@@ -46,12 +46,21 @@ struct RangeImage {
   Eigen::Matrix3f frame_from_image = Eigen::Matrix3f::Identity();
 };
 
+/// What looking for a face at a person's head told. Zero: nothing.
+struct FaceEvidence {
+  /// Log odds that the person faces the sensor rather than away.
+  float facing_log_odds = 0.0F;
+  /// Log odds that the face looks to the right, as the sensor sees it, rather than to the left.
+  float looks_right_log_odds = 0.0F;
+};
+
 /// One person candidate: a cluster of points grown from a seed.
 struct Segment {
   std::int32_t id = 0;                               ///< number within the frame
   Eigen::Vector3f seed_m = Eigen::Vector3f::Zero();  ///< where growing started, on the surface
   SeedKind seed_kind = SeedKind::kSkin;
   float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head
+  FaceEvidence face;
   SegmentFilter rejected_by = SegmentFilter::kNone;
   float filter_figure = 0.0F;             ///< what the rejecting filter measured
   float filter_limit = 0.0F;              ///< against what

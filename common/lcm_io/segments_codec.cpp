@@ -129,6 +129,8 @@ segment_t to_message(const Segment& segment, const DepthNoise& noise) {
   for (int i = 0; i < 3; ++i) message.seed_m[i] = segment.seed_m[i];
   message.seed_kind = static_cast<std::int8_t>(segment.seed_kind);
   message.seed_score = segment.seed_score;
+  message.facing_log_odds = segment.face.facing_log_odds;
+  message.looks_right_log_odds = segment.face.looks_right_log_odds;
   message.rejected_by = static_cast<std::int8_t>(segment.rejected_by);
   message.filter_figure = segment.filter_figure;
   message.filter_limit = segment.filter_limit;
@@ -148,6 +150,9 @@ Segment from_message(const segment_t& message) {
           "segments: unknown 'seed_kind'");
   segment.seed_kind = static_cast<SeedKind>(message.seed_kind);
   segment.seed_score = message.seed_score;
+  require(std::isfinite(message.facing_log_odds) && std::isfinite(message.looks_right_log_odds),
+          "segments: odds of a face are not finite");
+  segment.face = {message.facing_log_odds, message.looks_right_log_odds};
   require(
       message.rejected_by >= segment_t::VALID && message.rejected_by <= segment_t::NOT_HEAD_SHAPED,
       "segments: unknown 'rejected_by'");

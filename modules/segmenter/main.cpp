@@ -1,3 +1,4 @@
+#include "common/config/log.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/segmenter/stage.hpp"
 
@@ -15,6 +16,10 @@ void run(int argc, const char* const* argv) {
 
   lcm_io::Module module("segmenter", parser.common());
   const Stage stage(options);
+  if (!stage.problem().empty()) {
+    module.set_note(stage.problem());
+    config::log(config::LogLevel::kWarning, stage.problem());
+  }
   module.subscribe_frames<point_cloud_t>(
       options.point_cloud_channel, [&](const point_cloud_t& message) {
         module.publish_frame(options.segments_channel, stage.process(message));

@@ -45,6 +45,9 @@ void declare(config::Section& section, SegmenterOptions& options) {
   declare_filters(section, "paper-", " (growing paper)", params.paper_filters);
   section.add("min-skin-log-ratio", params.skin.min_log_ratio, "",
               "log likelihood ratio above which a colour is skin", {-20.0F, 20.0F});
+  section.add("face-cascades", params.faces.cascades,
+              "folder of OpenCV's face cascades (Debian's opencv-data); empty: no faces are "
+              "looked for");
   section.add("range-image-margin-m", params.range_image_margin_m, "m",
               "space kept around a person in the range image", {0.0F, 2.0F});
 }

@@ -53,6 +53,12 @@ std::optional<HeadCandidate> head_at(const Lattice& lattice, const Eigen::Vector
   return head;
 }
 
+/// Centre of the head whose surface is seen at `seed_m`.
+Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
+  constexpr float kHeadDepth_m = 0.09F;
+  return seed_m + kHeadDepth_m * seed_m.normalized();
+}
+
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
@@ -61,7 +67,7 @@ void reject(const Rejection& rejection, Segment& segment) {
 
 }  // namespace
 
-Segmenter::Segmenter(const Params& params) : params_(params) {}
+Segmenter::Segmenter(const Params& params) : params_(params), faces_(params.faces) {}
 
 Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step) {
   step = std::max(1, static_cast<int>(std::lround(cloud.camera->fx / kLatticeFocal_px)));
@@ -190,6 +196,7 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
     if (!segment.valid()) continue;
+    segment.face = faces_.look(scene.cloud, behind_surface(segment.seed_m), scene.lattice.up);
     const auto label = static_cast<std::int16_t>(k);
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);

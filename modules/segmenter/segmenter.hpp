@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
 #include "modules/segmenter/body_classifier.hpp"
+#include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
@@ -25,6 +27,9 @@ class Segmenter {
   /// Cuts out the people whose heads' centres are told (sensor frame): one valid segment for each
   /// head that the cloud shows, grown as `growing = refined` does. Finds and rejects nobody.
   Segments cut_out_people(const Cloud& cloud, const std::vector<Eigen::Vector3f>& heads_m) const;
+
+  /// What the segmenter must do without, and how to mend it; empty where it has all.
+  const std::string& problem() const { return faces_.problem(); }
 
  private:
   /// A cloud on the grid that its people are searched in.
@@ -53,6 +58,7 @@ class Segmenter {
   SkinColor skin_;
   HeadClassifier classifier_;
   BodyClassifier bodies_;
+  FaceFinder faces_;
 };
 
 /// What the heads of an organised cloud are searched in: every `step`-th of its pixels.

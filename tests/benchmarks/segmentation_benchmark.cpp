@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/neighbor_search.hpp"
 #include "modules/segmenter/paper_growing.hpp"
 #include "modules/segmenter/segmenter.hpp"
@@ -55,6 +56,16 @@ void cut_out_a_person(benchmark::State& state) {
   set_points(state, points);
 }
 BENCHMARK(cut_out_a_person)->Unit(benchmark::kMillisecond);
+
+/// At a head that looks at the sensor, and half a metre below it, where all cascades are asked.
+void look_for_a_face(benchmark::State& state, float below_m) {
+  const FaceFinder finder({});
+  const Eigen::Vector3f at_m = seed_m() + below_m * cloud().stamp.gravity.down;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(finder.look(cloud(), at_m, Eigen::Vector2f(0.0F, -1.0F)));
+}
+BENCHMARK_CAPTURE(look_for_a_face, face, 0.0F)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(look_for_a_face, no_face, 0.5F)->Unit(benchmark::kMillisecond);
 
 using MakeSearch = std::unique_ptr<NeighborSearch> (*)(const Cloud&);
 

@@ -177,6 +177,7 @@ segments_t segments_message() {
   segment.seed_m = {0.1F, 0.2F, 2.0F};
   segment.seed_kind = SeedKind::kBoth;
   segment.seed_score = 0.7F;
+  segment.face = {2.5F, -1.5F};
   segment.rejected_by = SegmentFilter::kNotHeadShaped;
   segment.filter_figure = 12.0F;
   segment.filter_limit = 300.0F;
@@ -214,6 +215,8 @@ TEST(CodecMessages, KeepEveryFieldOfASegment) {
   EXPECT_EQ(segment.seed_m, Eigen::Vector3f(0.1F, 0.2F, 2.0F));
   EXPECT_EQ(segment.seed_kind, SeedKind::kBoth);
   EXPECT_EQ(segment.seed_score, 0.7F);
+  EXPECT_EQ(segment.face.facing_log_odds, 2.5F);
+  EXPECT_EQ(segment.face.looks_right_log_odds, -1.5F);
   EXPECT_EQ(segment.rejected_by, SegmentFilter::kNotHeadShaped);
   EXPECT_EQ(segment.filter_figure, 12.0F);
   EXPECT_EQ(segment.filter_limit, 300.0F);
@@ -353,6 +356,8 @@ TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
        {[=](Message& m) { window(m).inverse_depth_scale = kInfinity; }, scale},
        {[=](Message& m) { window(m).frame_from_image[8] = 0.1F; }, "rotation of a window"},
        {[](Message& m) { m.segments[0].seed_m[1] = kNaN; }, "seed is not finite"},
+       {[](Message& m) { m.segments[0].facing_log_odds = kNaN; }, "odds of a face"},
+       {[](Message& m) { m.segments[0].looks_right_log_odds = kInfinity; }, "odds of a face"},
        {[](Message& m) { m.segments[0].seed_kind = -1; }, "'seed_kind'"},
        {[](Message& m) { m.segments[0].seed_kind = 3; }, "'seed_kind'"},
        {[](Message& m) { m.segments[0].rejected_by = -1; }, "'rejected_by'"},

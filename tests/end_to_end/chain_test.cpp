@@ -37,10 +37,10 @@ class ChainTest : public ::testing::Test {
     for (const char* module : {"reconstructor", "segmenter", "pose-fitter"}) start_module(module);
   }
 
-  void start_module(const std::string& module) {
-    modules_[module] = std::make_unique<ChildProcess>(
-        std::vector<std::string>{program("limbcast-" + module), "--lcm-url", url_},
-        folder_ + "/" + module + ".txt");
+  void start_module(const std::string& module, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> command = {program("limbcast-" + module), "--lcm-url", url_};
+    command.insert(command.end(), options.begin(), options.end());
+    modules_[module] = std::make_unique<ChildProcess>(command, folder_ + "/" + module + ".txt");
   }
   /// Handles messages until `done`; fails when a process that must live has ended.
   template <class Done>
@@ -122,6 +122,14 @@ TEST_F(ChainTest, DropsAForeignMessageOnEveryChannelAndGoesOn) {
   EXPECT_THAT(status_["segmenter"].last_error, ::testing::HasSubstr("POINT_CLOUD"));
   auto camera = start_camera({"--rate", "4", "--loop"});
   EXPECT_TRUE(wait_for([this] { return !poses_.empty(); }));
+}
+
+TEST_F(ChainTest, TellsInTheStatusWhyNoFacesAreLookedFor) {
+  ASSERT_TRUE(wait_until_up());
+  EXPECT_EQ(status_["segmenter"].note, "");
+  start_module("segmenter", {"--face-cascades", "/nowhere"});
+  EXPECT_TRUE(wait_for(
+      [this] { return status_["segmenter"].note.find("opencv-data") != std::string::npos; }));
 }
 
 TEST_F(ChainTest, EndsCleanlyOnSigterm) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "modules/pose_fitter/refined/evidence.hpp"
 #include "modules/pose_fitter/refined/solver.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
@@ -99,6 +100,22 @@ TEST(RefinedFitter, KeepsTheBodyOutOfFreeSpace) {
   }
 }
 
+TEST(RefinedFitter, TurnsABodyToTheSensorWhereAFaceIsSeen) {
+  Segment segment = testing::seen(testing::standing_body(2.5, 180.0 * kDegree));
+  // Who faces the sensor has the left arm at the image's right.
+  const auto left_m = [&] {
+    const auto pose = RefinedFitter().fit(segment, testing::stamp());
+    EXPECT_TRUE(pose);
+    return (*pose)[Joint::kShoulderLeft].position_m.x() -
+           (*pose)[Joint::kShoulderRight].position_m.x();
+  };
+  EXPECT_LT(left_m(), -0.2F);
+
+  // Surer than any face, so that it is told what the face tells, however well the shape fits.
+  segment.face.facing_log_odds = 40.0F;
+  EXPECT_GT(left_m(), 0.2F);
+}
+
 TEST(RefinedFitter, GivesTheSamePoseEveryTime) {
   BodyState body = testing::standing_body(3.0, 30.0 * kDegree);
   testing::point_with(body, 0, {1.0, -0.2, -0.5});
@@ -180,6 +197,49 @@ TEST(RefinedCost, RulesOutAnArmFarBehindTheTrunk) {
   // Where front and back look alike, noise and clothes decide by up to about 10 units of cost.
   EXPECT_LT(std::abs(cost_at(20.0) - cost_at(-20.0)), 5.0);
   EXPECT_GT(cost_at(50.0) - cost_at(-50.0), 10.0);
+}
+
+TEST(RefinedCost, MindsATrunkTurnedAgainstTheFace) {
+  const Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  auto observation = refined::observe(segment, testing::stamp(), RefinedParams{});
+  ASSERT_TRUE(observation);
+  const auto cost_at = [&](double yaw_deg) {
+    return face_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, 4.0);
+  };
+  EXPECT_EQ(cost_at(0.0), 0.0);
+  EXPECT_EQ(cost_at(180.0), 0.0);
+
+  observation->face = {2.0F, 0.0F};
+  EXPECT_NEAR(cost_at(0.0), 0.0, 1e-6);
+  EXPECT_NEAR(cost_at(90.0), 4.0, 1e-6);
+  EXPECT_NEAR(cost_at(180.0), 8.0, 1e-6);
+
+  observation->face = {-2.0F, 0.0F};
+  EXPECT_EQ(cost_at(0.0), 0.0);
+  EXPECT_EQ(cost_at(180.0), 0.0);
+
+  // Turned by 90 degrees from facing the camera, a body looks to the image's right.
+  ASSERT_GT(testing::standing_body(2.5, 90.0 * kDegree).front().x(), 0.9);
+  observation->face = {0.0F, 1.5F};
+  EXPECT_NEAR(cost_at(90.0), 0.0, 1e-6);
+  EXPECT_NEAR(cost_at(0.0), 3.0, 1e-6);
+  EXPECT_NEAR(cost_at(-90.0), 6.0, 1e-6);
+}
+
+TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.face.facing_log_odds = 3.0F;
+  const RefinedParams params;
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  ASSERT_TRUE(observation);
+  refined::PoseSearch search(*observation, params);
+
+  const refined::Evidence evidence = gather_evidence(search.run(), search);
+
+  // The shape alone is asked whether this is a person.
+  EXPECT_GT(evidence.shape_flip_gap, 0.0);
+  EXPECT_NEAR(evidence.flip_gap - evidence.shape_flip_gap, 3.0 * params.face_cost_per_log_odds,
+              0.01);
 }
 
 TEST(RefinedCost, HasTheGradientOfItsDifferences) {

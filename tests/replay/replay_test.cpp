@@ -17,6 +17,7 @@ namespace {
 
 using lcm_io::LogEvent;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 class ReplayProgram : public ::testing::Test {
@@ -110,6 +111,14 @@ TEST_F(ReplayProgram, TakesChannelsAndParametersFromTheConfigurationFile) {
   const auto out = replayed(write("in.log", renamed), {"--config", config});
   EXPECT_THAT(on_channel(out, "FRONT_POSES"), SizeIs(2));
   EXPECT_THAT(on_channel(out, "BODY_POSES"), SizeIs(0));
+}
+
+TEST_F(ReplayProgram, SaysThatItLooksForNoFacesWithoutCascades) {
+  const std::string in = write("in.log", two_frames_);
+  const auto without = replay({in, path("out.log"), "--segmenter.face-cascades", "/nowhere"});
+  EXPECT_EQ(without.exit_code, 0) << without.output;
+  EXPECT_THAT(without.output, HasSubstr("install the package opencv-data"));
+  EXPECT_THAT(replay({in, path("out.log")}).output, Not(HasSubstr("opencv-data")));
 }
 
 TEST_F(ReplayProgram, TakesACalibrationThatComesLate) {

@@ -64,8 +64,8 @@ Real pointing_confidence(const BodyState& body, const Evidence& evidence, const 
 Real person_confidence(const Evidence& evidence) {
   const Real arms = strength(evidence.arms[0].support) + strength(evidence.arms[1].support);
   return logistic(-0.18 - 2.07 * std::log(std::max(0.1, evidence.prior_cost)) +
-                  0.61 * strength(evidence.flip_gap) + 0.54 * arms + 2.46 * evidence.legs_share +
-                  0.82 * evidence.head_odds);
+                  0.61 * strength(evidence.shape_flip_gap) + 0.54 * arms +
+                  2.46 * evidence.legs_share + 0.82 * evidence.head_odds);
 }
 
 }  // namespace

@@ -104,11 +104,14 @@ bool faces_the_other_way(const BodyState& a, const BodyState& b) {
   return a.front().dot(b.front()) < 0.0;
 }
 
-Real flip_gap(const std::vector<PoseCandidate>& candidates) {
+/// Least of what bodies facing the other way cost more than the best, by `cost_of` a candidate.
+template <class CostOf>
+Real flip_gap(const std::vector<PoseCandidate>& candidates, const CostOf& cost_of) {
   const PoseCandidate& best = candidates.front();
   Real gap = kNoRival;
   for (const PoseCandidate& rival : candidates) {
-    if (faces_the_other_way(rival.body, best.body)) gap = std::min(gap, rival.cost - best.cost);
+    if (faces_the_other_way(rival.body, best.body))
+      gap = std::min(gap, cost_of(rival) - cost_of(best));
   }
   return gap;
 }
@@ -153,7 +156,10 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
   }
   weigh_points(cones, *stage.points, evidence);
 
-  evidence.flip_gap = flip_gap(candidates);
+  evidence.flip_gap = flip_gap(candidates, [](const PoseCandidate& pose) { return pose.cost; });
+  evidence.shape_flip_gap = flip_gap(candidates, [&](const PoseCandidate& pose) {
+    return pose.cost - face_cost(pose.body, observation, solver.params().face_cost_per_log_odds);
+  });
   for (int side = 0; side < 2; ++side) {
     ArmEvidence& arm = evidence.arms[side];
     arm.bend_rad = angle(body.points[kElbow + side] - body.points[kShoulder + side],

@@ -211,6 +211,7 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   if (!(seed.norm() > 0.1)) return std::nullopt;
   observation.head_start = seed + kHeadDepthM * seed.normalized();
   observation.up = -(image.frame_from_image.transpose() * stamp.gravity.down).cast<Real>();
+  observation.face = segment.face;
   if (stamp.gravity.sensor_height_m) observation.floor_m = *stamp.gravity.sensor_height_m;
 
   float median_z = 0.0F;

@@ -37,6 +37,7 @@ struct Observation {
   std::vector<float> skin_distance_px;
   DepthNoise noise;
 
+  FaceEvidence face;            ///< what its face tells
   Vec3 up;                      ///< against gravity
   Vec3 head_start;              ///< first guess of the head's centre
   std::optional<Real> floor_m;  ///< place of the floor along -up, where it is known

@@ -222,15 +222,34 @@ bool PoseSearch::try_arm(PoseCandidate& pose, int side) {
   return better;
 }
 
+void PoseSearch::move_limbs(PoseCandidate& pose) {
+  try_legs(pose);
+  for (int side = 0; side < 2; ++side) try_arm(pose, side);
+}
+
 void PoseSearch::move(PoseCandidate& pose) {
   for (int round = 0; round < params_.move_rounds; ++round) {
     const Real before = pose.cost;
     try_flip(pose);
     if (round == 0) try_flip_with_other_arms(pose);
-    try_legs(pose);
-    for (int side = 0; side < 2; ++side) try_arm(pose, side);
+    move_limbs(pose);
     if (before - pose.cost < kLeastRoundGain * before) break;
   }
+}
+
+/// The face speaks last: in the search it would leave too few bodies that face the other way, whose
+/// flips find arms that no other start finds.
+void PoseSearch::choose_by_face(std::vector<PoseCandidate>& poses) {
+  const auto with_face = [&](const PoseCandidate& pose) {
+    return pose.cost + face_cost(pose.body, observation_, params_.face_cost_per_log_odds);
+  };
+  const auto chosen = std::min_element(
+      poses.begin(), poses.end(),
+      [&](const PoseCandidate& a, const PoseCandidate& b) { return with_face(a) < with_face(b); });
+  // What lost by its shape was given up half-way.
+  if (chosen != poses.begin()) move_limbs(*chosen);
+  for (PoseCandidate& pose : poses) pose.cost = with_face(pose);
+  sort_by_cost(poses);
 }
 
 std::vector<PoseCandidate> PoseSearch::run() {
@@ -241,6 +260,7 @@ std::vector<PoseCandidate> PoseSearch::run() {
   for (int i = 0; i < moved_count; ++i) move(poses[i]);
   poses.insert(poses.end(), rejected_.begin(), rejected_.end());
   sort_by_cost(poses);
+  choose_by_face(poses);
   return poses;
 }
 

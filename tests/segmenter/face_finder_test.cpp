@@ -1,0 +1,180 @@
+#include "modules/segmenter/face_finder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <thread>
+#include <vector>
+
+#include "modules/segmenter/segmenter.hpp"
+#include "tests/benchmarks/demo_frame.hpp"
+#include "tests/segmenter/recorded_frames.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const Eigen::Vector2f kUpPx(0.0F, -1.0F);
+
+bool tell_the_same(const FaceEvidence& a, const FaceEvidence& b) {
+  return a.facing_log_odds == b.facing_log_odds && a.looks_right_log_odds == b.looks_right_log_odds;
+}
+
+/// The cloud's colours, to be changed in place.
+cv::Mat3b image_of(Cloud& cloud) {
+  return {cloud.height, cloud.width, reinterpret_cast<cv::Vec3b*>(cloud.colors.data())};
+}
+
+/// The cloud as a mirror shows it.
+Cloud mirrored(Cloud cloud) {
+  cv::Mat3b image = image_of(cloud);
+  cv::flip(image, image, 1);
+  cloud.camera->cx = cloud.width - 1 - cloud.camera->cx;
+  return cloud;
+}
+
+/// The cloud of a camera that is turned by a quarter about its optical axis: its columns run down.
+Cloud turned(Cloud cloud) {
+  Cloud result = cloud;
+  std::swap(result.width, result.height);
+  result.camera->width = result.width;
+  result.camera->height = result.height;
+  result.camera->cx = cloud.camera->cy;
+  result.camera->cy = cloud.width - 1 - cloud.camera->cx;
+  const cv::Mat3b upright = image_of(cloud);
+  cv::Mat3b image = image_of(result);
+  cv::rotate(upright, image, cv::ROTATE_90_COUNTERCLOCKWISE);
+  return result;
+}
+
+/// Two people of the demo log's first frame, the first of whom looks at the camera.
+class FacesOfTheDemo : public ::testing::Test {
+ protected:
+  FaceEvidence look(const Cloud& cloud, const Eigen::Vector3f& head_m,
+                    const Eigen::Vector2f& up_px = kUpPx) const {
+    return FaceFinder(params_).look(cloud, head_m, up_px);
+  }
+
+  const Cloud& cloud_ = test::demo_frame().cloud;
+  const Segment person_ = segment(cloud_).segments.at(0);
+  const Eigen::Vector3f head_m_ = person_.seed_m;
+  const FaceParams params_{};
+};
+
+TEST_F(FacesOfTheDemo, TellThatWhoLooksAtTheSensorFacesIt) {
+  EXPECT_GE(look(cloud_, head_m_).facing_log_odds, params_.some_hits_log_odds);
+  EXPECT_GE(person_.face.facing_log_odds, params_.some_hits_log_odds);
+}
+
+TEST_F(FacesOfTheDemo, AreNotSeenAtTheTrunk) {
+  const Eigen::Vector3f trunk_m = head_m_ + Eigen::Vector3f(0.0F, 0.6F, 0.0F);
+  EXPECT_EQ(look(cloud_, trunk_m).facing_log_odds, params_.no_hit_log_odds);
+}
+
+TEST_F(FacesOfTheDemo, AreSeenByACameraThatHangsSideways) {
+  const Eigen::Vector3f head_m(head_m_.y(), -head_m_.x(), head_m_.z());
+  const Cloud sideways = turned(cloud_);
+  EXPECT_GE(look(sideways, head_m, {-1.0F, 0.0F}).facing_log_odds, params_.some_hits_log_odds);
+  EXPECT_EQ(look(sideways, head_m, kUpPx).facing_log_odds, params_.no_hit_log_odds);
+}
+
+TEST_F(FacesOfTheDemo, TellNothingWithoutColor) {
+  Cloud colorless = cloud_;
+  colorless.colors.clear();
+  EXPECT_TRUE(tell_the_same(look(colorless, head_m_), {}));
+}
+
+TEST_F(FacesOfTheDemo, TellNothingInACloudThatIsNoCameras) {
+  Cloud list = cloud_;
+  list.camera.reset();
+  EXPECT_TRUE(tell_the_same(look(list, head_m_), {}));
+}
+
+TEST_F(FacesOfTheDemo, TellNothingOfAHeadTooSmallToSee) {
+  const float far_m =
+      static_cast<float>(cloud_.camera->fx) * params_.patch_m / params_.min_patch_px * 1.01F;
+  EXPECT_TRUE(tell_the_same(look(cloud_, {0.0F, 0.0F, far_m}), {}));
+  EXPECT_FALSE(tell_the_same(look(cloud_, {0.0F, 0.0F, 0.98F * far_m}), {}));
+}
+
+TEST_F(FacesOfTheDemo, AreTheSameForSeveralThreads) {
+  const FaceFinder finder(params_);
+  const FaceEvidence alone = finder.look(cloud_, head_m_, kUpPx);
+  std::vector<FaceEvidence> evidence(4);
+  std::vector<std::thread> threads;
+  for (FaceEvidence& result : evidence)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 5; ++i) result = finder.look(cloud_, head_m_, kUpPx);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const FaceEvidence& result : evidence) EXPECT_TRUE(tell_the_same(result, alone));
+}
+
+TEST_F(FacesOfTheDemo, AreNotLookedForWhereNobodyWantsThem) {
+  Params params;
+  params.faces.cascades.clear();
+  const Segmenter segmenter(params);
+  EXPECT_TRUE(tell_the_same(segmenter.segment(cloud_).segments.at(0).face, {}));
+  EXPECT_THAT(segmenter.problem(), IsEmpty());
+}
+
+TEST_F(FacesOfTheDemo, AreNotLookedForWithoutCascadesAndTheProblemSaysWhatToInstall) {
+  Params params;
+  params.faces.cascades = "/nowhere";
+  const Segmenter segmenter(params);
+  EXPECT_TRUE(tell_the_same(segmenter.segment(cloud_).segments.at(0).face, {}));
+  EXPECT_THAT(segmenter.problem(), HasSubstr("/nowhere"));
+  EXPECT_THAT(segmenter.problem(), HasSubstr("opencv-data"));
+}
+
+TEST_F(FacesOfTheDemo, AreNotLookedForWithDamagedCascades) {
+  const std::string folder = ::testing::TempDir() + "/damaged_cascades";
+  std::filesystem::create_directories(folder);
+  for (const char* file : {"/haarcascade_frontalface_default.xml", "/haarcascade_profileface.xml"})
+    std::ofstream(folder + file) << "<opencv_storage>";
+  FaceParams params;
+  params.cascades = folder;
+  EXPECT_THAT(FaceFinder(params).problem(), HasSubstr("opencv-data"));
+}
+
+/// Rendered people of whom is known how they stand.
+class RecordedFace : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << kFolder << " is not there";
+  }
+  LoadedFrame read(const std::string& name) const {
+    return FrameReader(kFolder, DepthFrom::kTruth).read(kFolder + "/" + name);
+  }
+
+  const std::string kFolder = LIMBCAST_DATA_DIR "/stereo_dev/pointing";
+  const FaceParams params_{};
+};
+
+TEST_F(RecordedFace, IsNotSeenFromBehind) {
+  for (const char* name : {"pointing60_0007", "pointing60_0017", "pointing60_0047"}) {
+    const LoadedFrame frame = read(name);
+    const Eigen::Vector3f& head_m = frame.persons.at(0).joints_m.at("head");
+    EXPECT_EQ(FaceFinder(params_).look(frame.cloud, head_m, kUpPx).facing_log_odds,
+              params_.no_hit_log_odds)
+        << name;
+  }
+}
+
+TEST_F(RecordedFace, TellsToWhichSideItLooks) {
+  const LoadedFrame frame = read("pointing60_0014");
+  Eigen::Vector3f head_m = frame.persons.at(0).joints_m.at("head");
+  const FaceFinder finder(params_);
+  EXPECT_EQ(finder.look(frame.cloud, head_m, kUpPx).looks_right_log_odds, params_.profile_log_odds);
+  head_m.x() = -head_m.x();
+  EXPECT_EQ(finder.look(mirrored(frame.cloud), head_m, kUpPx).looks_right_log_odds,
+            -params_.profile_log_odds);
+}
+
+}  // namespace
+}  // namespace limbcast::segmenter
