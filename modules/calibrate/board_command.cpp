@@ -12,6 +12,12 @@
 namespace limbcast::calibrate {
 namespace {
 
+struct DrawingParams {
+  /// Side of a square below which no board is drawn [px]. A ChArUco marker of 6 x 6 with its border
+  /// has 8 cells on 0.7 of a square; 16 px leave each more than one pixel.
+  int min_square_px = 16;
+};
+
 bool is_pdf(const std::string& path) { return std::filesystem::path(path).extension() == ".pdf"; }
 
 /// What those who find the sheet later need for --board, --columns, --rows and --square-mm.
@@ -42,11 +48,11 @@ bool run_board(int argc, const char* const* argv) {
 
   const Board board = to_board(options);
   const int square_px = cvRound(options.square_mm * dots_per_inch / kMillimetresPerInch);
-  // A marker needs 9 cells and a square some pixels more for its corners to be sharp.
-  constexpr int kSmallestSquare_px = 16;
-  if (square_px < kSmallestSquare_px)
-    throw config::UsageError("a square has " + std::to_string(square_px) +
-                             " pixels, must be at least 16; raise 'dpi' or 'square-mm'");
+  const DrawingParams params;
+  if (square_px < params.min_square_px)
+    throw config::UsageError(
+        formatted("a square has %d pixels, must be at least %d; raise 'dpi' or 'square-mm'",
+                  square_px, params.min_square_px));
   const double pixels_per_m = square_px / board.square_m;
   const cv::Mat image = draw_board(board, square_px);
   if (is_pdf(output)) {

@@ -13,9 +13,11 @@ struct CheckParams {
   /// Median row difference of matched points after rectification that is still good [px]. A matcher
   /// loses fine texture from about half a pixel on.
   double max_epipolar_px = 0.5;
-  /// Difference of a measured length from the known one, as a share.
+  /// Difference of a measured length from the known one, as a share: four times what a good
+  /// calibration is off by (README), and as much as distances then are.
   double max_length_error = 0.02;
-  /// With fewer points nothing is said.
+  /// With fewer points nothing is said: their median could rest on wrong matches. More than half a
+  /// board of 9 x 6, or what a bare wall does not give.
   int min_points = 30;
 };
 

@@ -9,10 +9,10 @@
 namespace limbcast::calibrate {
 
 struct MountingParams {
-  /// Frames that must show ground.
+  /// Frames that must show ground. One is enough where the camera stands still.
   int min_frames = 1;
-  /// How far gravity and height of single frames may spread about their median. Steeper ramps or a
-  /// robot that moves give no mounting.
+  /// How far gravity [degrees] and height [m] of single frames may spread about their median: ten
+  /// times the errors measured on a recording (README). Ramps or a robot that moves give more.
   double max_spread_deg = 2.0, max_spread_m = 0.1;
 };
 
