@@ -124,11 +124,36 @@ TEST(Lzf, RepeatsWhatStoodBefore) {
   EXPECT_EQ(std::string(unpacked->begin(), unpacked->end()), "abababab");
 }
 
-TEST(Lzf, RefusesWhatPointsBeforeTheBeginOrEndsEarly) {
-  for (const std::vector<std::uint8_t>& packed :
-       {std::vector<std::uint8_t>{0x20, 0x05}, {0x1F, 'a'}, {0xE0}, {0x20}}) {
-    EXPECT_FALSE(unpack_lzf(packed.data(), packed.size(), 8));
-  }
+/// Unpacks the first `given` bytes of `packed`, which are to give `size` bytes.
+bool unpacks(const std::vector<std::uint8_t>& packed, std::size_t given, std::size_t size) {
+  return unpack_lzf(packed.data(), given, size).has_value();
+}
+
+// What is refused would give just as many bytes as are wanted if it were read on, so that the size
+// alone tells nothing.
+
+TEST(Lzf, RefusesWhatPointsBeforeTheBegin) {
+  // "a", then 3 bytes from 1 before, and from 2 before.
+  EXPECT_TRUE(unpacks({0x00, 'a', 0x20, 0x00}, 4, 4));
+  EXPECT_FALSE(unpacks({0x00, 'a', 0x20, 0x01}, 4, 4));
+}
+
+TEST(Lzf, RefusesWhatEndsEarly) {
+  const std::vector<std::uint8_t> literal = {0x02, 'a', 'b', 'c'};
+  EXPECT_TRUE(unpacks(literal, 4, 3));
+  EXPECT_FALSE(unpacks(literal, 3, 3)) << "within bytes as they are";
+  const std::vector<std::uint8_t> repeated = {0x00, 'a', 0x20, 0x00};
+  EXPECT_FALSE(unpacks(repeated, 3, 4)) << "before the distance";
+  const std::vector<std::uint8_t> long_repeated = {0x00, 'a', 0xE0, 0x00, 0x00};
+  EXPECT_TRUE(unpacks(long_repeated, 5, 10));
+  EXPECT_FALSE(unpacks(long_repeated, 4, 10)) << "before the distance of a long one";
+  EXPECT_FALSE(unpacks(long_repeated, 3, 10)) << "before the length";
+}
+
+TEST(Lzf, RefusesWhatGivesTooManyOrTooFewBytes) {
+  EXPECT_FALSE(unpacks({0x02, 'a', 'b', 'c'}, 4, 2));
+  EXPECT_FALSE(unpacks({0x02, 'a', 'b', 'c'}, 4, 4));
+  EXPECT_FALSE(unpacks({0x00, 'a', 0x20, 0x00}, 4, 3));
 }
 
 TEST(AxesTest, TurnIntoOurFrame) {
