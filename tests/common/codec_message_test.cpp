@@ -203,6 +203,15 @@ TEST(CodecMessages, KeepEveryFieldOfACalibration) {
             bytes_of(message));
 }
 
+TEST(CodecMessages, TakeNoMemoryForElementsThatTheyOnlyClaim) {
+  lens_t lens{};
+  std::vector<std::uint8_t> bytes = bytes_of(lens);
+  // The number of coefficients is last: 2^24 of them claimed, none there.
+  bytes[bytes.size() - 4] = 1;
+  EXPECT_LT(lens.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  EXPECT_EQ(lens.distortion.size(), 0U);
+}
+
 TEST(CodecMessages, KeepEveryFieldOfASegment) {
   const segments_t message = segments_message();
   const Segments segments = from_message(message);
