@@ -24,8 +24,8 @@ struct Mounting {
 
 /// Rotations and projections of a rectified pair, names as cv::stereoRectify gives them.
 struct Rectification {
-  Eigen::Matrix3d R1, R2;
-  Eigen::Matrix<double, 3, 4> P1, P2;
+  Eigen::Matrix3d R1 = Eigen::Matrix3d::Identity(), R2 = Eigen::Matrix3d::Identity();
+  Eigen::Matrix<double, 3, 4> P1 = Eigen::Matrix<double, 3, 4>::Zero(), P2 = P1;
 };
 
 /// A stereo camera as cv::stereoCalibrate describes it: p_right = R * p_left + T [m].
