@@ -9,7 +9,12 @@
 
 namespace limbcast {
 
-enum class SeedKind : std::int8_t { kSkin = 0, kHeadShape = 1, kBoth = 2 };
+enum class SeedKind : std::int8_t {
+  kSkin = 0,
+  kHeadShape = 1,
+  kBoth = 2,  ///< a head's shape, and skin
+  kBody = 3,  ///< a body whose head is out of sight: the seed is a guess of where it is
+};
 
 /// The filters of section III-B.2 of the paper, and what else ends a candidate.
 enum class SegmentFilter : std::int8_t {
@@ -59,7 +64,7 @@ struct Segment {
   std::int32_t id = 0;                               ///< number within the frame
   Eigen::Vector3f seed_m = Eigen::Vector3f::Zero();  ///< where growing started, on the surface
   SeedKind seed_kind = SeedKind::kSkin;
-  float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head
+  float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head (kBody: of a person)
   FaceEvidence face;
   SegmentFilter rejected_by = SegmentFilter::kNone;
   float filter_figure = 0.0F;             ///< what the rejecting filter measured

@@ -146,7 +146,7 @@ Segment from_message(const segment_t& message) {
   segment.id = message.id;
   segment.seed_m = {message.seed_m[0], message.seed_m[1], message.seed_m[2]};
   require(segment.seed_m.allFinite(), "segments: seed is not finite");
-  require(message.seed_kind >= segment_t::SEED_SKIN && message.seed_kind <= segment_t::SEED_BOTH,
+  require(message.seed_kind >= segment_t::SEED_SKIN && message.seed_kind <= segment_t::SEED_BODY,
           "segments: unknown 'seed_kind'");
   segment.seed_kind = static_cast<SeedKind>(message.seed_kind);
   segment.seed_score = message.seed_score;

@@ -157,12 +157,19 @@ cv::Mat1f score_image(const Lattice& lattice, const HeadShapeParams& params) {
   return scores;
 }
 
+/// Direction from the sensor to a place (level frame).
+Eigen::Vector3f ray_to(const Lattice& lattice, const Eigen::Vector3f& place_m) {
+  return (place_m - Eigen::Vector3f(0.0F, 0.0F, lattice.frame.sensor_height_m)).normalized();
+}
+
 }  // namespace
 
 Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surface_m) {
-  const Eigen::Vector3f ray =
-      surface_m - Eigen::Vector3f(0.0F, 0.0F, lattice.frame.sensor_height_m);
-  return surface_m + kHeadDepth_m * ray.normalized();
+  return surface_m + kHeadDepth_m * ray_to(lattice, surface_m);
+}
+
+Eigen::Vector3f head_surface(const Lattice& lattice, const Eigen::Vector3f& center_m) {
+  return center_m - kHeadDepth_m * ray_to(lattice, center_m);
 }
 
 Eigen::Vector3f from_head(const Lattice& lattice, const HeadCandidate& head,

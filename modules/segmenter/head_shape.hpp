@@ -29,7 +29,8 @@ std::vector<HeadCandidate> find_heads(const Lattice& lattice, const HeadShapePar
 Eigen::Vector3f from_head(const Lattice& lattice, const HeadCandidate& head,
                           const Eigen::Vector3f& level_m);
 
-/// Centre of the head whose surface is seen at `surface_m` (both level frame).
+/// Centre of the head whose surface is seen at `surface_m` (both level frame), and back.
 Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surface_m);
+Eigen::Vector3f head_surface(const Lattice& lattice, const Eigen::Vector3f& center_m);
 
 }  // namespace limbcast::segmenter

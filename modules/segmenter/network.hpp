@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct StoredNetwork {
 };
 
 Network unpack(const StoredNetwork& stored);
+
+inline float probability(float log_odds) { return 1.0F / (1.0F + std::exp(-log_odds)); }
 
 /// Bounded and steep at zero, as tanh, without a call: x / (1 + |x|).
 inline float soft_sign(float x) { return x / (1.0F + (x < 0.0F ? -x : x)); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -62,8 +63,8 @@ struct PaperGrowingParams {
   int max_iterations = 200000;
 };
 
-/// Growing from all heads together.
-struct JointGrowingParams {
+/// What counts as one surface.
+struct SurfaceParams {
   /// Longest step between neighbours at the depth z [m] grows with z^2, as depth noise does.
   float min_step_m = 0.06F;
   float step_per_m2 = 0.012F;
@@ -71,6 +72,10 @@ struct JointGrowingParams {
   /// Points lower than this over the ground are ground [m]: two sigma of stereo noise and the
   /// plane's error.
   float ground_cut_m = 0.04F;
+};
+
+/// Growing from all heads together.
+struct JointGrowingParams : SurfaceParams {
   /// Longest way from the head along the surface [m]: crown to sole of a 2 m person, and a bend.
   float max_way_m = 2.4F;
   /// A step in depth costs this much more than one along the image: bodies that touch part there.
@@ -162,6 +167,34 @@ struct ClassifierParams {
   float separation_m = 0.28F;
 };
 
+/// People whose head is out of sight (hidden_heads.hpp).
+struct HiddenHeadParams {
+  /// Half as far as growing steps: a body must part from the one before it and from the wall.
+  SurfaceParams surface{0.05F, 0.006F};
+  /// Surface of what is seen of such a body [m^2]: an arm and a leg beside somebody, a whole body
+  /// without its head.
+  float min_area_m2 = 0.05F, max_area_m2 = 0.7F;
+  /// Its largest level side, and its least height [m]: trunk and a stretched arm; a leg or a trunk.
+  float max_extent_m = 0.9F, min_height_m = 0.45F;
+  /// Places that are tried for the head: heights over the ground, the likeliest (mean of adults)
+  /// first, and distances across from the surface's middle [m].
+  std::array<float, 5> head_heights_m = {1.60F, 1.50F, 1.70F, 1.40F, 1.80F};
+  std::array<float, 7> across_m = {0.0F, -0.1F, 0.1F, -0.2F, 0.2F, -0.3F, 0.3F};
+  /// The axis of a trunk lies this far behind its surface [m].
+  float trunk_depth_m = 0.10F;
+  /// A head's radius, and how much nearer somebody is who hides it [m].
+  float head_radius_m = 0.09F, min_gap_m = 0.15F;
+  /// Two people's axes are no nearer to one another [m]: half the width of a trunk and a half.
+  float min_distance_m = 0.35F;
+  /// Lowest log odds of a person who may hide another: behind furniture is no person.
+  float min_hider_odds = 2.0F;
+  /// Lowest mean log odds of the surface's points that it is a body's. Lower: edges of cupboards.
+  float min_body_odds = -0.6F;
+  /// Log odds of a person added for such a place: with the limits above all of 12 such surfaces
+  /// were people's (simulated groups of seed 401 and stereo_dev/multi).
+  float place_odds = 3.0F;
+};
+
 /// The four filters of section III-B.2. The defaults are those of `growing = refined`: loose, since
 /// its classifiers judge too, and its clusters may be a head and a shoulder behind somebody else.
 struct FilterParams {
@@ -248,6 +281,7 @@ struct Params {
   BodyCutParams body_cut;
   HeadShapeParams head;
   ClassifierParams classifier;
+  HiddenHeadParams hidden_heads;
   FilterParams filters;
   FilterParams paper_filters = kPaperFilters;
   SkinParams skin;

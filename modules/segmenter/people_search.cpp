@@ -1,7 +1,6 @@
 #include "modules/segmenter/people_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -15,8 +14,6 @@ namespace {
 
 /// A seed most of whose points another one takes over is on the same person.
 constexpr float kSamePersonShare = 0.5F;
-
-float probability(float odds) { return 1.0F / (1.0F + std::exp(-odds)); }
 
 /// What became of the heads while they grow together.
 class Trial {

@@ -9,6 +9,7 @@
 #include "modules/segmenter/furniture.hpp"
 #include "modules/segmenter/ground.hpp"
 #include "modules/segmenter/head_shape.hpp"
+#include "modules/segmenter/hidden_heads.hpp"
 #include "modules/segmenter/joint_growing.hpp"
 #include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/paper_search.hpp"
@@ -29,7 +30,7 @@ Segment make_segment(const HeadCandidate& head, const LevelFrame& frame, float o
   Segment segment;
   segment.seed_m = frame.to_sensor(head.surface_m);
   segment.seed_kind = head.kind;
-  segment.seed_score = 1.0F / (1.0F + std::exp(-odds));
+  segment.seed_score = probability(odds);
   return segment;
 }
 
@@ -146,7 +147,9 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
                                                   const std::vector<HeadCandidate>& seeds,
                                                   Segments& result) const {
   const LevelFrame& frame = scene.lattice.frame;
-  const FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_);
+  FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_);
+  if (scene.cloud.organized())
+    add_headless_people(scene.lattice, surfaces_, params_.hidden_heads, people);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
     result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {
@@ -196,7 +199,9 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
     if (!segment.valid()) continue;
-    segment.face = faces_.look(scene.cloud, behind_surface(segment.seed_m), scene.lattice.up);
+    // A head that is out of sight shows no face: that tells nothing.
+    if (segment.seed_kind != SeedKind::kBody)
+      segment.face = faces_.look(scene.cloud, behind_surface(segment.seed_m), scene.lattice.up);
     const auto label = static_cast<std::int16_t>(k);
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);

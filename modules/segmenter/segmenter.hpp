@@ -12,6 +12,7 @@
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
 #include "modules/segmenter/skin_color.hpp"
+#include "modules/segmenter/surface_classifier.hpp"
 
 namespace limbcast::segmenter {
 
@@ -59,6 +60,7 @@ class Segmenter {
   HeadClassifier classifier_;
   BodyClassifier bodies_;
   FaceFinder faces_;
+  SurfaceClassifier surfaces_;
 };
 
 /// What the heads of an organised cloud are searched in: every `step`-th of its pixels.

@@ -10,11 +10,13 @@ namespace {
 constexpr std::int32_t kNone = -1, kUnseen = -2;
 
 /// Everything that may lie on a surface is marked unseen, the rest none.
-std::vector<std::int32_t> mark_points(const Lattice& lattice, float ground_cut_m) {
+std::vector<std::int32_t> mark_points(const Lattice& lattice, float ground_cut_m,
+                                      const std::vector<std::int16_t>* taken) {
   std::vector<std::int32_t> marks(lattice.size(), kNone);
   for (std::size_t i = 0; i < lattice.size(); ++i) {
     const bool ground = lattice.frame.ground_known && lattice.level_m[i].z() < ground_cut_m;
-    if (lattice.depth_m[i] > 0.0F && !ground) marks[i] = kUnseen;
+    const bool free = taken == nullptr || (*taken)[i] == kNobody;
+    if (lattice.depth_m[i] > 0.0F && !ground && free) marks[i] = kUnseen;
   }
   return marks;
 }
@@ -22,7 +24,7 @@ std::vector<std::int32_t> mark_points(const Lattice& lattice, float ground_cut_m
 /// Walks over one surface after the other.
 class Walker {
  public:
-  Walker(const Lattice& lattice, const JointGrowingParams& params, Surfaces& surfaces)
+  Walker(const Lattice& lattice, const SurfaceParams& params, Surfaces& surfaces)
       : lattice_(lattice), params_(params), surfaces_(surfaces) {}
 
   Surface walk(std::uint32_t start, std::int32_t name) {
@@ -56,15 +58,16 @@ class Walker {
   }
 
   const Lattice& lattice_;
-  const JointGrowingParams& params_;
+  const SurfaceParams& params_;
   Surfaces& surfaces_;
   std::vector<std::uint32_t> points_;
 };
 
 }  // namespace
 
-Surfaces find_surfaces(const Lattice& lattice, const JointGrowingParams& params) {
-  Surfaces surfaces{mark_points(lattice, params.ground_cut_m), {}};
+Surfaces find_surfaces(const Lattice& lattice, const SurfaceParams& params,
+                       const std::vector<std::int16_t>* taken) {
+  Surfaces surfaces{mark_points(lattice, params.ground_cut_m, taken), {}};
   Walker walker(lattice, params, surfaces);
   for (std::uint32_t i = 0; i < lattice.size(); ++i) {
     if (surfaces.of_point[i] != kUnseen) continue;

@@ -16,10 +16,12 @@ struct Surface {
 
 /// The connected surfaces of a lattice, the ground left out.
 struct Surfaces {
-  std::vector<std::int32_t> of_point;  ///< index into `all`; -1 at holes and on the ground
+  std::vector<std::int32_t> of_point;  ///< index into `all`; -1 where there is none
   std::vector<Surface> all;
 };
 
-Surfaces find_surfaces(const Lattice& lattice, const JointGrowingParams& params);
+/// Points that `taken` gives a label are on none.
+Surfaces find_surfaces(const Lattice& lattice, const SurfaceParams& params,
+                       const std::vector<std::int16_t>* taken = nullptr);
 
 }  // namespace limbcast::segmenter

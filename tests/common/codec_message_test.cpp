@@ -175,7 +175,7 @@ segments_t segments_message() {
   Segment segment;
   segment.id = 9;
   segment.seed_m = {0.1F, 0.2F, 2.0F};
-  segment.seed_kind = SeedKind::kBoth;
+  segment.seed_kind = SeedKind::kBody;
   segment.seed_score = 0.7F;
   segment.face = {2.5F, -1.5F};
   segment.rejected_by = SegmentFilter::kNotHeadShaped;
@@ -222,7 +222,7 @@ TEST(CodecMessages, KeepEveryFieldOfASegment) {
   const Segment& segment = segments.segments[0];
   EXPECT_EQ(segment.id, 9);
   EXPECT_EQ(segment.seed_m, Eigen::Vector3f(0.1F, 0.2F, 2.0F));
-  EXPECT_EQ(segment.seed_kind, SeedKind::kBoth);
+  EXPECT_EQ(segment.seed_kind, SeedKind::kBody);
   EXPECT_EQ(segment.seed_score, 0.7F);
   EXPECT_EQ(segment.face.facing_log_odds, 2.5F);
   EXPECT_EQ(segment.face.looks_right_log_odds, -1.5F);
@@ -368,7 +368,7 @@ TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
        {[](Message& m) { m.segments[0].facing_log_odds = kNaN; }, "odds of a face"},
        {[](Message& m) { m.segments[0].looks_right_log_odds = kInfinity; }, "odds of a face"},
        {[](Message& m) { m.segments[0].seed_kind = -1; }, "'seed_kind'"},
-       {[](Message& m) { m.segments[0].seed_kind = 3; }, "'seed_kind'"},
+       {[](Message& m) { m.segments[0].seed_kind = 4; }, "'seed_kind'"},
        {[](Message& m) { m.segments[0].rejected_by = -1; }, "'rejected_by'"},
        {[](Message& m) { m.segments[0].rejected_by = 7; }, "'rejected_by'"},
        {[](Message& m) { m.segments[0].num_points = -1; }, "number of points"},

@@ -242,6 +242,30 @@ TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
               0.01);
 }
 
+TEST(RefinedCost, HoldsAGuessedHeadLessThanOneInSight) {
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  const RefinedParams params;
+  const BodyState body = testing::standing_body(2.5, 0.0);
+  BodyState aside = body;
+  aside.points[refined::kHead].x() += 0.10;
+  const auto cost_of_moving = [&] {
+    const auto observation = refined::observe(segment, testing::stamp(), params);
+    const auto cost_at = [&](const BodyState& at) {
+      refined::NormalEquations equations;
+      equations.clear(false);
+      // The cones stay, so that only what is told of the head changes.
+      add_prior_terms(at, make_cones_of(body), *observation, refined::kAllParts, params, equations);
+      return equations.cost;
+    };
+    return cost_at(aside) - cost_at(body);
+  };
+
+  const double seen = cost_of_moving();
+  segment.seed_kind = SeedKind::kBody;
+  // 10 cm are two standard deviations of a head in sight.
+  EXPECT_GT(seen, cost_of_moving() + 1.0);
+}
+
 TEST(RefinedCost, HasTheGradientOfItsDifferences) {
   BodyState body = testing::standing_body(2.5, 20.0 * kDegree);
   const Segment segment = testing::seen(body);

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Trains the classifiers of heads and of bodies from nothing: simulates people for each sensor, trains on them
-# and on the recordings of bodies D1 to D3, and writes modules/segmenter/head_networks.inc and body_network.inc.
+# Trains the classifiers of heads, bodies and surfaces from nothing: simulates people for each sensor, trains on them
+# and on the recordings of bodies D1 to D3, and writes modules/segmenter/head_networks.inc, body_network.inc and
+# surface_network.inc.
 # Build again afterwards.
 # Usage: tests/segmenter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
 #   SIMULATED_DIR   2220 simulated frames, 1.4 GB, about half an hour on two cores; sets that are there stay
@@ -63,3 +64,12 @@ for set in d_multi d_multi2 d_general d_sit t_sit t_multi t_general s_general s_
 done
 for set in general pointing multi hd; do bodies+=("$data/stereo_dev/$set"); done
 "$bin/limbcast-train-bodies" modules/segmenter/body_network.inc "${bodies[@]}"
+
+# Bodies and furniture as cameras see them, whole and cut by the image's edge.
+surfaces=()
+for set in s_multi s_multi2 s_general s_general2 s_pointing s_nohuman s_nohuman2 t_multi t_general t_nohuman \
+  d_multi d_multi2 d_general d_nohuman d_nohuman2; do
+  surfaces+=("$simulated/$set")
+done
+for set in general pointing multi hd; do surfaces+=("$data/stereo_dev/$set"); done
+"$bin/limbcast-train-surfaces" modules/segmenter/surface_network.inc "${surfaces[@]}"

@@ -11,6 +11,8 @@ namespace {
 
 /// Head's centre behind the skin the sensor sees [m] (data/README: 9 cm).
 constexpr Real kHeadDepthM = 0.09;
+/// Error of a head's centre that was seen, and of one guessed from the body beneath it [m].
+constexpr Real kSeenHeadSigmaM = 0.05, kGuessedHeadSigmaM = 0.20;
 /// An own pixel farther than this in depth from the head is an error of the segmentation [m].
 constexpr float kMaxDepthFromHeadM = 1.1F;
 /// What is this much nearer than the person's median hides what may be behind it [m].
@@ -210,6 +212,8 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   const Vec3 seed = (image.frame_from_image.transpose() * segment.seed_m).cast<Real>();
   if (!(seed.norm() > 0.1)) return std::nullopt;
   observation.head_start = seed + kHeadDepthM * seed.normalized();
+  observation.head_start_sigma_m =
+      segment.seed_kind == SeedKind::kBody ? kGuessedHeadSigmaM : kSeenHeadSigmaM;
   observation.up = -(image.frame_from_image.transpose() * stamp.gravity.down).cast<Real>();
   observation.face = segment.face;
   if (stamp.gravity.sensor_height_m) observation.floor_m = *stamp.gravity.sensor_height_m;

@@ -37,10 +37,11 @@ struct Observation {
   std::vector<float> skin_distance_px;
   DepthNoise noise;
 
-  FaceEvidence face;            ///< what its face tells
-  Vec3 up;                      ///< against gravity
-  Vec3 head_start;              ///< first guess of the head's centre
-  std::optional<Real> floor_m;  ///< place of the floor along -up, where it is known
+  FaceEvidence face;               ///< what its face tells
+  Vec3 up;                         ///< against gravity
+  Vec3 head_start;                 ///< first guess of the head's centre
+  Real head_start_sigma_m = 0.05;  ///< standard deviation of its error
+  std::optional<Real> floor_m;     ///< place of the floor along -up, where it is known
   Eigen::Matrix3f frame_from_image = Eigen::Matrix3f::Identity();
 
   bool inside(int u, int v) const {

@@ -12,7 +12,6 @@ constexpr Real kUprightSigma = 0.12;         // sine of the trunk's lean to the 
 constexpr Real kUprightForwardSigma = 0.18;  // and to the front
 constexpr Real kLogGirthSigma = 0.10;
 constexpr Real kStatureLimitSigmas = 3.0;
-constexpr Real kHeadStartSigmaM = 0.05;
 constexpr Real kSymmetrySigmaM = 0.006;
 constexpr Real kHandSigma = 0.012;
 constexpr Real kPenetrationSigmaM = 0.02;
@@ -225,11 +224,11 @@ class Priors {
     equations_.add_residual(local.z(), kUprightForwardSigma);
   }
 
-  void head(const Vec3& start) {
+  void head(const Vec3& start, Real sigma_m) {
     for (int axis = 0; axis < 3; ++axis) {
       equations_.start_row();
       equations_.derivative(3 * kHead + axis, 1.0);
-      equations_.add_residual(body_.points[kHead][axis] - start[axis], kHeadStartSigmaM);
+      equations_.add_residual(body_.points[kHead][axis] - start[axis], sigma_m);
     }
   }
 
@@ -323,7 +322,7 @@ void add_trunk_and_legs(const Observation& observation, const RefinedParams& par
                      params.log_stature_sigma);
   priors.log_girth();
   priors.upright(observation.up);
-  priors.head(observation.head_start);
+  priors.head(observation.head_start, observation.head_start_sigma_m);
 }
 
 }  // namespace

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/params.hpp"
+#include "modules/segmenter/people_search.hpp"
+#include "modules/segmenter/surface_classifier.hpp"
+
+namespace limbcast::segmenter {
+
+/// A surface that nobody with a head in sight explains, and whose own head, if it is a body, must
+/// be out of sight: beyond the image's edge, or behind somebody.
+struct HeadlessSurface {
+  HeadCandidate head;  ///< where its head is guessed to be
+  std::vector<std::uint32_t> points;
+};
+
+/// All of them in a camera's lattice, largest first; none where the ground is not known, which
+/// tells how high heads are.
+std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
+                                                    const FoundPeople& found,
+                                                    const HiddenHeadParams& params);
+
+/// Adds those that are a body's to the people who were found, and the others to the rejected.
+void add_headless_people(const Lattice& lattice, const SurfaceClassifier& classifier,
+                         const HiddenHeadParams& params, FoundPeople& found);
+
+}  // namespace limbcast::segmenter

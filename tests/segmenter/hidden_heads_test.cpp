@@ -1,0 +1,154 @@
+#include "modules/segmenter/hidden_heads.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/segmenter/drawn_scene.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+constexpr float kSensorHeight_m = 1.2F;
+constexpr float kWall_m = 5.0F;
+constexpr float kEdge_m = kWidth / 2 / kFocal_px * kBody_m;
+/// Shoulders and soles against the sensor's height, and half the width of a trunk.
+constexpr float kShoulder_m = 0.2F, kSole_m = -1.1F, kTrunk_m = 0.2F;
+
+/// What a level camera over a known ground sees of a scene before a wall.
+Lattice look_into_room(const Scene& depth_at) {
+  Lattice lattice = look_at([&](float right_m, float up_m) {
+    const float z_m = depth_at(right_m, up_m);
+    return z_m > 0.0F ? z_m : kWall_m;
+  });
+  lattice.frame.ground_known = true;
+  lattice.frame.sensor_height_m = kSensorHeight_m;
+  for (Eigen::Vector3f& point : lattice.level_m) point.z() += kSensorHeight_m;
+  return lattice;
+}
+
+/// A body without a head, its axis so far to the right.
+bool on_body(float right_m, float up_m, float axis_m) {
+  return std::abs(right_m - axis_m) < kTrunk_m && up_m < kShoulder_m && up_m > kSole_m;
+}
+
+FoundPeople nobody(const Lattice& lattice) {
+  FoundPeople found;
+  found.labels.assign(lattice.size(), kNobody);
+  return found;
+}
+
+std::vector<HeadlessSurface> find(const Lattice& lattice) {
+  return find_headless_surfaces(lattice, nobody(lattice), {});
+}
+
+/// Half a body at the right edge of the image.
+Lattice body_at_edge() {
+  return look_into_room(
+      [](float right_m, float up_m) { return on_body(right_m, up_m, kEdge_m) ? kBody_m : 0.0F; });
+}
+
+TEST(HiddenHeads, AreGuessedBeyondTheEdgeThatCutsABody) {
+  const auto found = find(body_at_edge());
+  ASSERT_EQ(found.size(), 1U);
+  const Eigen::Vector3f& head_m = found[0].head.center_m;
+  EXPECT_EQ(found[0].head.kind, SeedKind::kBody);
+  EXPECT_GT(head_m.x(), kEdge_m - 0.05F);
+  EXPECT_NEAR(head_m.y(), kBody_m, 0.2F);
+  EXPECT_GT(head_m.z(), kSensorHeight_m + kShoulder_m);
+}
+
+TEST(HiddenHeads, AreNotGuessedWhereTheHeadWouldBeInSight) {
+  const Lattice lattice = look_into_room(
+      [](float right_m, float up_m) { return on_body(right_m, up_m, 0.0F) ? kBody_m : 0.0F; });
+  EXPECT_TRUE(find(lattice).empty());
+}
+
+TEST(HiddenHeads, AreGuessedBehindWhoIsSurelyAPerson) {
+  constexpr float kNearer_m = 2.0F;
+  const Lattice lattice = look_into_room([](float right_m, float up_m) {
+    if (std::abs(right_m) < 0.25F) return kNearer_m;
+    return on_body(right_m, up_m, 0.2F) ? kBody_m : 0.0F;
+  });
+  FoundPeople found = nobody(lattice);
+  HeadCandidate before;
+  before.center_m = before.surface_m = {0.0F, kNearer_m, kSensorHeight_m + 0.4F};
+  found.heads.push_back(before);
+  found.person_odds.push_back(5.0F);
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    if (lattice.depth_m[i] == kNearer_m) found.labels[i] = 0;
+  }
+
+  const auto behind = find_headless_surfaces(lattice, found, {});
+
+  ASSERT_EQ(behind.size(), 1U);
+  EXPECT_LT(behind[0].head.center_m.x(), 0.25F);
+  EXPECT_NEAR(behind[0].head.center_m.y(), kBody_m, 0.2F);
+  found.person_odds[0] = 0.0F;
+  EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
+}
+
+TEST(HiddenHeads, AreNotGuessedOnThePlaceOfAnotherPerson) {
+  const Lattice lattice = body_at_edge();
+  FoundPeople found = nobody(lattice);
+  found.heads.push_back(find(lattice).at(0).head);
+  found.heads[0].center_m.z() -= 0.3F;
+  found.person_odds.push_back(5.0F);
+  EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
+}
+
+TEST(HiddenHeads, NeedTheGround) {
+  Lattice lattice = body_at_edge();
+  lattice.frame.ground_known = false;
+  EXPECT_TRUE(find(lattice).empty());
+}
+
+TEST(HiddenHeads, LeaveOutWhatSomebodyHas) {
+  const Lattice lattice = body_at_edge();
+  FoundPeople found = nobody(lattice);
+  const HeadlessSurface surface = find(lattice).at(0);
+  for (const std::uint32_t i : surface.points) found.labels[i] = kUnsure;
+  EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
+}
+
+/// Says the same of every point.
+SurfaceClassifier always_surface(float odds) {
+  Network network;
+  network.hidden_weights = Network::Weights::Zero(1, kSurfaceInputSize);
+  network.hidden_bias = Eigen::VectorXf::Zero(1);
+  network.output_weights = Eigen::VectorXf::Zero(1);
+  network.output_bias = odds;
+  return SurfaceClassifier(network);
+}
+
+TEST(HeadlessPeople, AreThoseWhoseSurfaceIsABodys) {
+  const Lattice lattice = body_at_edge();
+  FoundPeople found = nobody(lattice);
+  const HiddenHeadParams params;
+  add_headless_people(lattice, always_surface(2.0F), params, found);
+  ASSERT_EQ(found.heads.size(), 1U);
+  EXPECT_FLOAT_EQ(found.person_odds.at(0), 2.0F + params.place_odds);
+  EXPECT_EQ(found.labels[index_at(lattice, kEdge_m - 0.1F, -0.2F)], 0);
+  EXPECT_EQ(found.labels[index_at(lattice, 0.0F, -0.2F)], kNobody);
+}
+
+TEST(HeadlessPeople, AreRejectedWhereTheSurfaceIsNone) {
+  const Lattice lattice = body_at_edge();
+  FoundPeople found = nobody(lattice);
+  add_headless_people(lattice, always_surface(-2.0F), {}, found);
+  EXPECT_TRUE(found.heads.empty());
+  ASSERT_EQ(found.rejected.size(), 1U);
+  EXPECT_EQ(found.rejected[0].rejection.filter, SegmentFilter::kNotHeadShaped);
+}
+
+TEST(SurfaceClassifier, SeesAMirroredPointFromTheOtherSide) {
+  const Lattice left =
+      look_into_room([](float right_m, float) { return right_m < 0.3F ? kBody_m : 0.0F; });
+  const Lattice right =
+      look_into_room([](float right_m, float) { return right_m > -0.3F ? kBody_m : 0.0F; });
+  // One pixel to the middle's left: the lattice has as many columns on both sides of it.
+  const SurfaceInput seen = surface_input(left, index_at(left, 0.2F, 0.0F), false);
+  const SurfaceInput mirrored = surface_input(right, index_at(right, -0.2F, 0.0F), true);
+  for (Eigen::Index i = 0; i < seen.size(); ++i) EXPECT_NEAR(seen[i], mirrored[i], 1e-4F) << i;
+}
+
+}  // namespace
+}  // namespace limbcast::segmenter
