@@ -25,8 +25,8 @@ inline Lattice look_at(const Scene& depth_at) {
   lattice.frame = make_level_frame(Gravity{}, std::nullopt);
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
-      const float right = (static_cast<float>(u) - kWidth / 2) / kFocal_px,
-                  up = (kHeight / 2 - static_cast<float>(v)) / kFocal_px;
+      const float right = (static_cast<float>(u) - 0.5F * kWidth) / kFocal_px,
+                  up = (0.5F * kHeight - static_cast<float>(v)) / kFocal_px;
       const float z_m = depth_at(right * kBody_m, up * kBody_m);
       lattice.depth_m.push_back(z_m);
       lattice.level_m.emplace_back(right * z_m, z_m, up * z_m);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kSensorHeight_m = 1.2F;
 constexpr float kWall_m = 5.0F;
-constexpr float kEdge_m = kWidth / 2 / kFocal_px * kBody_m;
+constexpr float kEdge_m = 0.5F * kWidth / kFocal_px * kBody_m;
 /// Shoulders and soles against the sensor's height, and half the width of a trunk.
 constexpr float kShoulder_m = 0.2F, kSole_m = -1.1F, kTrunk_m = 0.2F;
 
