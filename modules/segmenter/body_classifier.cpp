@@ -71,12 +71,7 @@ BodyClassifier::BodyClassifier(Network network) : network_(std::move(network)) {
 
 PointInput point_input(const Lattice& lattice, const HeadCandidate& head, std::uint32_t i,
                        bool mirrored) {
-  PatchPlace place;
-  const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
-  place.u = static_cast<float>(u);
-  place.v = static_cast<float>(v);
-  place.depth_m = lattice.depth_m[i];
-  place.mirrored = mirrored;
+  const PatchPlace place = place_of_point(lattice, i, mirrored);
   PointInput input;
   float* values = input.data();
   for (const PatchGrid& grid : kPointGrids) values = write_grid(lattice, place, grid, values);

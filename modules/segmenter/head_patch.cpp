@@ -16,6 +16,16 @@ constexpr float kNoiseScale_m = 0.1F;
 
 }  // namespace
 
+PatchPlace place_of_point(const Lattice& lattice, std::uint32_t i, bool mirrored) {
+  const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
+  PatchPlace place;
+  place.u = static_cast<float>(u);
+  place.v = static_cast<float>(v);
+  place.depth_m = lattice.depth_m[i];
+  place.mirrored = mirrored;
+  return place;
+}
+
 float* write_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,
                   float* values) {
   const Eigen::Vector2f right(-lattice.up.y(), lattice.up.x());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "modules/segmenter/lattice.hpp"
@@ -38,6 +39,9 @@ struct PatchPlace {
   float scale = 1.0F;        ///< larger: wider spacing
   bool mirrored = false;
 };
+
+/// Where point `i` of the lattice is, at its own depth.
+PatchPlace place_of_point(const Lattice& lattice, std::uint32_t i, bool mirrored);
 
 /// Writes the depths of one grid around a place, as sample_patch tells, and returns where they end.
 float* write_grid(const Lattice& lattice, const PatchPlace& place, const PatchGrid& grid,

@@ -27,12 +27,7 @@ SurfaceClassifier::SurfaceClassifier() : SurfaceClassifier(unpack(kSurfaceNetwor
 SurfaceClassifier::SurfaceClassifier(Network network) : network_(std::move(network)) {}
 
 SurfaceInput surface_input(const Lattice& lattice, std::uint32_t i, bool mirrored) {
-  PatchPlace place;
-  const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
-  place.u = static_cast<float>(u);
-  place.v = static_cast<float>(v);
-  place.depth_m = lattice.depth_m[i];
-  place.mirrored = mirrored;
+  const PatchPlace place = place_of_point(lattice, i, mirrored);
   SurfaceInput input;
   float* values = input.data();
   for (const PatchGrid& grid : kSurfaceGrids) values = write_grid(lattice, place, grid, values);

@@ -1,6 +1,8 @@
 #include "tests/segmenter/network_training.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <numeric>
 #include <random>
@@ -164,6 +166,15 @@ void write_networks(const std::vector<std::pair<std::string, Network>>& networks
   for (const auto& [name, network] : networks) write_network(network, name, file);
   file << "// clang-format on\n";
   if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+void print_decisions(const char* what, const Network& network,
+                     const std::vector<Example>& examples) {
+  std::array<std::array<int, 2>, 2> table{};
+  for (const Example& e : examples)
+    ++table[e.positive ? 1 : 0][network.log_odds(e.input) > 0.0F ? 1 : 0];
+  std::printf("%s: of bodies' points kept %d of %d, of others %d of %d\n", what, table[1][1],
+              table[1][0] + table[1][1], table[0][1], table[0][0] + table[0][1]);
 }
 
 }  // namespace limbcast::segmenter

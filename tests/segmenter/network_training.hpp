@@ -24,6 +24,10 @@ struct TrainingParams {
 /// Least logistic loss by Adam (Kingma and Ba, ICLR 2015). The same examples give the same network.
 Network train(const std::vector<Example>& examples, const TrainingParams& params);
 
+/// Prints how many points of bodies, and of other things, a network takes for a body's.
+void print_decisions(const char* what, const Network& network,
+                     const std::vector<Example>& examples);
+
 /// Writes C++ text that defines a StoredNetwork (see network.hpp) for each name.
 void write_networks(const std::vector<std::pair<std::string, Network>>& networks,
                     const std::string& path);

@@ -116,14 +116,6 @@ void add_views(const LoadedFrame& frame, const Params& params, std::mt19937& ran
     add_examples(frame, cut_to_columns(lattice, 0, middle), params, random, examples);
 }
 
-void report(const char* what, const Network& network, const std::vector<Example>& examples) {
-  std::array<std::array<int, 2>, 2> table{};
-  for (const Example& e : examples)
-    ++table[e.positive ? 1 : 0][network.log_odds(e.input) > 0.0F ? 1 : 0];
-  std::printf("%s: of bodies' points kept %d of %d, of others %d of %d\n", what, table[1][1],
-              table[1][0] + table[1][1], table[0][1], table[0][0] + table[0][1]);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -150,8 +142,8 @@ int main(int argc, char** argv) {
   training.epochs = 12;
   training.decay = 0.01F;
   const Network network = train(trained_on, training);
-  report("trained on", network, trained_on);
-  report("not trained on", network, checked_on);
+  print_decisions("trained on", network, trained_on);
+  print_decisions("not trained on", network, checked_on);
   write_networks({{"kSurfaceNetwork", network}}, argv[1]);
   return 0;
 }
