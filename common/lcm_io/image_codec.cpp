@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/camera/jpeg.hpp"
 #include "common/lcm_io/message_error.hpp"
 
 namespace limbcast::lcm_io {
@@ -22,15 +23,6 @@ image_t message_of(const cv::Mat& image, std::int8_t encoding, std::vector<std::
   return message;
 }
 
-image_t to_coded_message(const cv::Mat& image, const char* extension, std::int8_t encoding,
-                         const std::vector<int>& parameters) {
-  if (image.empty()) return {};
-  std::vector<std::uint8_t> data;
-  if (!cv::imencode(extension, image, data, parameters))
-    throw std::runtime_error(std::string("image cannot be coded as ") + extension);
-  return message_of(image, encoding, std::move(data));
-}
-
 cv::Mat decode_raw(const image_t& message, int channels) {
   const std::size_t expected = static_cast<std::size_t>(message.width) * message.height * channels;
   require(message.data.size() == expected, "image: raw data has another size than width x height");
@@ -39,31 +31,39 @@ cv::Mat decode_raw(const image_t& message, int channels) {
   return image;
 }
 
-cv::Mat decode_file(const image_t& message) {
-  cv::Mat image;
+cv::Mat decompress_png(const std::vector<std::uint8_t>& data) {
   try {
-    // A camera's note that it was held upright must not turn the pixels away from its calibration.
-    image = cv::imdecode(message.data,
-                         cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    return cv::imdecode(data,
+                        cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
-    throw MessageError("image: data cannot be decoded");
+    return {};
   }
+}
+
+/// A camera's note that it was held upright does not turn the pixels away from its calibration.
+cv::Mat decode_file(const image_t& message) {
+  const cv::Size size(message.width, message.height);
+  const cv::Mat image = message.encoding == image_t::JPEG ? decompress_jpeg(message.data, size)
+                                                          : decompress_png(message.data);
   require(!image.empty(), "image: data cannot be decoded");
-  require(image.cols == message.width && image.rows == message.height,
-          "image: decoded size differs from width x height");
+  require(image.size() == size, "image: decoded size differs from width x height");
   return image;
 }
 
 }  // namespace
 
 image_t to_jpeg_message(const cv::Mat& image, int quality) {
-  return to_coded_message(image, ".jpg", image_t::JPEG, {cv::IMWRITE_JPEG_QUALITY, quality});
+  if (image.empty()) return {};
+  return message_of(image, image_t::JPEG, compress_jpeg(image, quality));
 }
 
 image_t to_png_message(const cv::Mat& image) {
+  if (image.empty()) return {};
   constexpr int kFastCompression = 1;
-  return to_coded_message(image, ".png", image_t::PNG,
-                          {cv::IMWRITE_PNG_COMPRESSION, kFastCompression});
+  std::vector<std::uint8_t> data;
+  if (!cv::imencode(".png", image, data, {cv::IMWRITE_PNG_COMPRESSION, kFastCompression}))
+    throw std::runtime_error("image cannot be coded as PNG");
+  return message_of(image, image_t::PNG, std::move(data));
 }
 
 image_t to_raw_message(const cv::Mat& image) {

@@ -18,6 +18,7 @@ void run(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return;
 
   lcm_io::Module module("reconstructor", parser.common());
+  module.give_way(2);
   Stage stage(options);
   DriftWatch drift_watch;
   std::string drift;

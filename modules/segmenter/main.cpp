@@ -15,6 +15,7 @@ void run(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return;
 
   lcm_io::Module module("segmenter", parser.common());
+  module.give_way(1);
   const Stage stage(options);
   if (!stage.problem().empty()) {
     module.set_note(stage.problem());

@@ -1,0 +1,56 @@
+#include "common/camera/jpeg.hpp"
+
+#include <turbojpeg.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace limbcast {
+namespace {
+
+struct Closer {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+using Handle = std::unique_ptr<void, Closer>;
+
+}  // namespace
+
+std::vector<std::uint8_t> compress_jpeg(const cv::Mat& image, int quality) {
+  const bool grey = image.channels() == 1;
+  const int format = grey ? TJPF_GRAY : TJPF_BGR;
+  const int sampling = grey ? TJSAMP_GRAY : TJSAMP_420;
+  std::vector<std::uint8_t> bytes(tjBufSize(image.cols, image.rows, sampling));
+  const Handle handle(tjInitCompress());
+  unsigned char* data = bytes.data();
+  auto size = static_cast<unsigned long>(bytes.size());
+  if (!handle || tjCompress2(handle.get(), image.data, image.cols, static_cast<int>(image.step),
+                             image.rows, format, &data, &size, sampling, quality,
+                             TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0)
+    throw std::runtime_error(std::string("image cannot be coded as JPEG: ") +
+                             tjGetErrorStr2(handle.get()));
+  bytes.resize(size);
+  return bytes;
+}
+
+cv::Mat decompress_jpeg(const std::vector<std::uint8_t>& bytes, const cv::Size& size) {
+  const Handle handle(tjInitDecompress());
+  int width = 0, height = 0, sampling = 0, colors = 0;
+  const auto num_bytes = static_cast<unsigned long>(bytes.size());
+  if (!handle ||
+      tjDecompressHeader3(handle.get(), bytes.data(), num_bytes, &width, &height, &sampling,
+                          &colors) != 0 ||
+      size != cv::Size(width, height))
+    return {};
+  const bool grey = colors == TJCS_GRAY;
+  cv::Mat image(size, grey ? CV_8UC1 : CV_8UC3);
+  // A warning is what cameras leave between frames, and a damaged spot of the picture.
+  if (tjDecompress2(handle.get(), bytes.data(), num_bytes, image.data, width,
+                    static_cast<int>(image.step), height, grey ? TJPF_GRAY : TJPF_BGR,
+                    TJFLAG_ACCURATEDCT) != 0 &&
+      tjGetErrorCode(handle.get()) != TJERR_WARNING)
+    return {};
+  return image;
+}
+
+}  // namespace limbcast
