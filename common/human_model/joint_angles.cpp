@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/human_model/shortest_turn.hpp"
+#include "common/units.hpp"
 
 namespace limbcast {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 
-constexpr float kPi = 3.14159265358979F;
 constexpr JointAngle kLeftOut{std::numeric_limits<float>::quiet_NaN(), 0.0F};
 /// Share of the hip's flexion that the pelvis does: Murray et al. 2002 (see joint_limits.json).
 constexpr float kPelvisShareOfHipFlexion = 0.18F;
@@ -38,7 +38,7 @@ Matrix3f about(const Vector3f& axis, float angle_rad) {
   return Eigen::AngleAxisf(angle_rad, axis).toRotationMatrix();
 }
 
-float wrapped(float rad) { return std::remainder(rad, 2.0F * kPi); }
+float wrapped(float rad) { return std::remainder(rad, 2.0F * kPi<float>); }
 
 /// Flexion and abduction of a direction given in the frame (left, up, forward) it hangs on.
 struct Swing {

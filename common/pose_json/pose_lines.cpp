@@ -6,13 +6,12 @@
 
 #include "common/input_error.hpp"
 #include "common/pose_json/json_fields.hpp"
+#include "common/units.hpp"
 
 namespace limbcast::pose_json {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-constexpr float kDegrees = 57.2957795F;
 
 double rounded(float value, double steps_per_unit) {
   // Adding 0 turns -0 into 0, so that equal poses give equal lines.
@@ -35,7 +34,7 @@ OrderedJson pointing_json(const std::vector<Pointing>& arms) {
           {"direction", vector_json(arm.direction, kDirectionSteps)},
           {"forearm", vector_json(arm.forearm, kDirectionSteps)},
           {"head_hand", vector_json(arm.head_hand, kDirectionSteps)},
-          {"sigma_deg", rounded(arm.sigma_rad * kDegrees, kShareSteps)},
+          {"sigma_deg", rounded(arm.sigma_rad * kDegreesPerRadian<float>, kShareSteps)},
           {"confidence", rounded(arm.confidence, kShareSteps)}};
 }
 
@@ -69,7 +68,7 @@ Pointing read_pointing(const nlohmann::json& object, const std::string& where) {
     arm.forearm = direction(*found, "forearm", where);
   if (const auto found = object.find("head_hand"); found != object.end() && !found->is_null())
     arm.head_hand = direction(*found, "head_hand", where);
-  arm.sigma_rad = number_or(object, "sigma_deg", 0.0F, where) / kDegrees;
+  arm.sigma_rad = number_or(object, "sigma_deg", 0.0F, where) / kDegreesPerRadian<float>;
   arm.confidence = number_or(object, "confidence", 0.0F, where);
   return arm;
 }

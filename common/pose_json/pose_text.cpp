@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "common/formatted.hpp"
+#include "common/units.hpp"
 
 namespace limbcast::pose_json {
 namespace {
-
-constexpr float kDegrees = 57.2957795F;
 
 std::string vector_text(const Eigen::Vector3f& vector) {
   return formatted("(%.2f, %.2f, %.2f)", vector.x(), vector.y(), vector.z());
@@ -26,7 +25,8 @@ std::string pointing_text(const BodyPose& person) {
   const Pointing& arm = person.pointing.front();
   std::string text = std::string(arm.side == Side::kLeft ? "left" : "right") + " arm points to " +
                      vector_text(arm.direction);
-  if (arm.sigma_rad > 0.0F) text += formatted(", sigma %.1f degrees", arm.sigma_rad * kDegrees);
+  if (arm.sigma_rad > 0.0F)
+    text += formatted(", sigma %.1f degrees", arm.sigma_rad * kDegreesPerRadian<float>);
   return text;
 }
 

@@ -16,11 +16,10 @@
 #include "common/input_error.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/sources/pacer.hpp"
+#include "common/units.hpp"
 
 namespace limbcast {
 namespace {
-
-constexpr double kMicroseconds = 1e6;
 
 /// Times and sequence numbers of one round through the log.
 struct Round {
@@ -129,7 +128,8 @@ void play_log(const std::string& module_name, const SourceProcessOptions& option
     frames += round.frames;
     const double pause_s =
         1.0 / (options.source.rate_hz > 0.0 ? options.source.rate_hz : kDefaultRate_hz);
-    offset.utime += round.last_utime - round.first_utime + std::llround(kMicroseconds * pause_s);
+    offset.utime += round.last_utime - round.first_utime +
+                    std::llround(kMicrosecondsPerSecond<double> * pause_s);
     offset.sequence += round.last_sequence + 1;
   } while (options.source.loop && !lcm_io::stop_requested());
   config::log(config::LogLevel::kInfo, std::to_string(frames) + " frames sent");

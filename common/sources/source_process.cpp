@@ -8,13 +8,13 @@
 #include "common/config/log.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_loop.hpp"
+#include "common/units.hpp"
 
 namespace limbcast {
 namespace {
 
 /// How long the process may take to see a signal or that the status is due.
 constexpr std::chrono::milliseconds kTick{20};
-constexpr double kMicroseconds = 1e6;
 
 /// For the log at start: the source, and what its devices can do.
 std::string describe(const PairSource& source, const SourceOptions& options) {
@@ -145,7 +145,7 @@ void run_source(const std::string& module_name, const SourceProcessOptions& opti
                 const Mounting& calibration, const SendFrame& send) {
   require_end(options);
   SourceOptions source_options = options.source;
-  source_options.start_utime = std::llround(kMicroseconds * options.start_time_s);
+  source_options.start_utime = std::llround(kMicrosecondsPerSecond<double> * options.start_time_s);
   FrameSender<FramePair> sender(options, calibration, send);
   const std::unique_ptr<PairSource> source = open_source(source_options, format);
   run_frames(module_name, options, common, *source, sender, describe(*source, source_options));

@@ -9,10 +9,11 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/units.hpp"
+
 namespace limbcast::calibrate {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 /// Share of a square that a marker takes, and of the distance of two circles that one is wide.
 constexpr double kMarkerShare = 0.7, kCircleShare = 0.5;
 
@@ -161,9 +162,9 @@ Board to_board(const BoardOptions& options) {
   board.kind = kKinds.at(options.kind);
   board.columns = options.columns;
   board.rows = options.rows;
-  board.square_m = options.square_mm / kMillimetres;
-  board.marker_m =
-      options.marker_mm > 0.0 ? options.marker_mm / kMillimetres : kMarkerShare * board.square_m;
+  board.square_m = options.square_mm / kMillimetersPerMeter<double>;
+  board.marker_m = options.marker_mm > 0.0 ? options.marker_mm / kMillimetersPerMeter<double>
+                                           : kMarkerShare * board.square_m;
   board.dictionary = options.dictionary;
   return board;
 }

@@ -7,12 +7,11 @@
 #include "common/cloud/ground_plane.hpp"
 #include "common/formatted.hpp"
 #include "common/median.hpp"
+#include "common/units.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-constexpr double kDegrees = 57.29577951308232;
 
 Eigen::Vector3d median_direction(const std::vector<Eigen::Vector3d>& directions) {
   Eigen::Vector3d result;
@@ -55,7 +54,8 @@ Mounting MountingFinder::mounting() const {
   std::vector<double> angles_deg;
   std::vector<double> differences_m;
   for (std::size_t i = 0; i < downs_.size(); ++i) {
-    angles_deg.push_back(kDegrees * std::acos(std::min(1.0, downs_[i].dot(*mounting.down))));
+    angles_deg.push_back(kDegreesPerRadian<double> *
+                         std::acos(std::min(1.0, downs_[i].dot(*mounting.down))));
     differences_m.push_back(std::abs(heights_m_[i] - *mounting.sensor_height_m));
   }
   if (median(angles_deg) > params_.max_spread_deg || median(differences_m) > params_.max_spread_m)

@@ -10,11 +10,11 @@
 
 #include "common/config/options.hpp"
 #include "common/formatted.hpp"
+#include "common/units.hpp"
 
 namespace limbcast::calibrate {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 /// PDF's unit of length (ISO 32000-1, 8.3.2.3).
 constexpr double kPointsPerMillimetre = 72.0 / 25.4;
 
@@ -91,8 +91,8 @@ Paper paper_of(const std::string& name) {
 void write_pdf_of_size(const std::string& path, const cv::Mat& image, double pixels_per_m,
                        const Paper& paper, const std::string& caption) {
   constexpr double kCaptionMargin_mm = 4.0;
-  const double width_mm = kMillimetres * image.cols / pixels_per_m;
-  const double height_mm = kMillimetres * image.rows / pixels_per_m;
+  const double width_mm = kMillimetersPerMeter<double> * image.cols / pixels_per_m;
+  const double height_mm = kMillimetersPerMeter<double> * image.rows / pixels_per_m;
   const Paper sheet = turned_to_fit(width_mm, height_mm, paper);
   const auto points = [](double length_mm) { return kPointsPerMillimetre * length_mm; };
   const std::string contents =

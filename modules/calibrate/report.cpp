@@ -4,12 +4,11 @@
 
 #include "common/camera/calibration_io.hpp"
 #include "common/formatted.hpp"
+#include "common/units.hpp"
 #include "modules/calibrate/coverage.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 std::string lens_line(const char* side, const LensCalibration& lens,
                       const LensUncertainty& uncertainty, double coverage) {
@@ -50,7 +49,7 @@ std::string summary_text(const StereoFit& fit) {
                    share_of(covered_area(fit.views, Side::kLeft, size))) +
          lens_line("right", calibration.right, fit.right,
                    share_of(covered_area(fit.views, Side::kRight, size))) +
-         formatted("baseline %.2f mm\n", kMillimetres * calibration.T.norm());
+         formatted("baseline %.2f mm\n", kMillimetersPerMeter<double> * calibration.T.norm());
 }
 
 }  // namespace limbcast::calibrate

@@ -10,12 +10,11 @@
 #include "common/camera/opencv_conversion.hpp"
 #include "common/formatted.hpp"
 #include "common/median.hpp"
+#include "common/units.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-constexpr double kDegrees = 180.0 / CV_PI;
 
 using Pixels = std::vector<std::vector<cv::Point2f>>;
 using Points = std::vector<std::vector<cv::Point3f>>;
@@ -82,8 +81,9 @@ void set_pose(const CommonPoints& common, const Board& board, const LensCalibrat
   figures.distance_m = cv::norm(R * cv::Vec3d(middle.x, middle.y, middle.z) + translation);
   // The third column is the board's normal; a board may be numbered so that it points either way.
   const double sign = R(2, 2) < 0.0 ? -1.0 : 1.0;
-  figures.tilt_sideways_deg = kDegrees * std::atan2(sign * R(0, 2), sign * R(2, 2));
-  figures.tilt_updown_deg = kDegrees * std::atan2(sign * R(1, 2), sign * R(2, 2));
+  figures.tilt_sideways_deg =
+      kDegreesPerRadian<double> * std::atan2(sign * R(0, 2), sign * R(2, 2));
+  figures.tilt_updown_deg = kDegreesPerRadian<double> * std::atan2(sign * R(1, 2), sign * R(2, 2));
 }
 
 double rms_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {

@@ -6,15 +6,14 @@
 #include <cmath>
 #include <map>
 
+#include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
 
 namespace limbcast::evaluate {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
-
 double angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian<double>;
 }
 
 bool is_visible(const JointEstimate& truth) { return truth.valid && truth.confidence > 0.5F; }
@@ -202,7 +201,7 @@ void Evaluation::add_directions(const Pointing& truth, const Pointing& said) {
   if (!truth.head_hand.isZero() && !said.head_hand.isZero())
     tally_.head_hand_errors_deg.push_back(angle_deg(said.head_hand, truth.head_hand));
   if (said.sigma_rad > 0.0F)
-    tally_.pointing_sigmas.push_back({said.sigma_rad * kDegrees, error_deg});
+    tally_.pointing_sigmas.push_back({said.sigma_rad * kDegreesPerRadian<double>, error_deg});
 }
 
 Tally evaluate(const std::vector<TruthFrame>& truth, const std::vector<BodyPoses>& reported,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
 #include "modules/evaluate/statistics.hpp"
 
@@ -15,10 +16,6 @@ namespace limbcast::evaluate {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr float kDegrees = 57.29577951F;
-constexpr double kMicroseconds = 1e6;
-constexpr float kMillimetres = 1000.0F;
 
 /// A true person in one frame and what was told of it.
 struct Moment {
@@ -31,7 +28,7 @@ struct Moment {
 using Life = std::vector<Moment>;
 
 double seconds_between(const Moment& a, const Moment& b) {
-  return static_cast<double>(b.utime - a.utime) / kMicroseconds;
+  return static_cast<double>(b.utime - a.utime) / kMicrosecondsPerSecond<double>;
 }
 
 std::map<std::int64_t, const BodyPoses*> by_utime(const std::vector<BodyPoses>& frames) {
@@ -170,7 +167,7 @@ Quantity position_mm(int joint_index) {
   return [joint_index](const BodyPose& pose) -> std::optional<Vector3f> {
     const JointEstimate& joint = pose.joints[joint_index];
     if (!joint.valid) return std::nullopt;
-    return Vector3f(joint.position_m * kMillimetres);
+    return Vector3f(joint.position_m * kMillimetersPerMeter<float>);
   };
 }
 
@@ -179,7 +176,7 @@ Quantity pointing_direction_deg(Side side) {
   return [side](const BodyPose& pose) -> std::optional<Vector3f> {
     for (const Pointing& pointing : pose.pointing)
       if (pointing.side == side && !pointing.direction.isZero())
-        return Vector3f(pointing.direction * kDegrees);
+        return Vector3f(pointing.direction * kDegreesPerRadian<float>);
     return std::nullopt;
   };
 }
@@ -204,9 +201,9 @@ void add_life(const Life& life, const TrackingParams& params, TrackingTally& tal
   count_switches(life, tally);
   for (int joint = 0; joint < kJointCount; ++joint) {
     const Quantity position = position_mm(joint);
-    add_rests(life, position, params.rest_speed_m_s * kMillimetres, params.min_rest_frames,
-              tally.untracked_joints_mm, tally.tracked_joints_mm);
-    auto lags_frames = lags(life, position, params.moving_speed_m_s * kMillimetres);
+    add_rests(life, position, params.rest_speed_m_s * kMillimetersPerMeter<float>,
+              params.min_rest_frames, tally.untracked_joints_mm, tally.tracked_joints_mm);
+    auto lags_frames = lags(life, position, params.moving_speed_m_s * kMillimetersPerMeter<float>);
     if (!lags_frames.empty()) tally.lags_frames.push_back(std::move(lags_frames));
   }
   for (const Side side : {Side::kLeft, Side::kRight})

@@ -11,6 +11,7 @@
 #include "common/config/options.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
+#include "common/units.hpp"
 #include "modules/log/message_types.hpp"
 
 namespace limbcast::logs {
@@ -18,7 +19,6 @@ namespace {
 
 using lcm_io::LogEvent;
 
-constexpr double kMicroseconds = 1e6;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 struct Span {
@@ -52,7 +52,8 @@ class Selection {
 
  private:
   bool is_in_time(const LogEvent& event) const {
-    const double after_s = static_cast<double>(event.utime - begin_utime_) / kMicroseconds;
+    const double after_s =
+        static_cast<double>(event.utime - begin_utime_) / kMicrosecondsPerSecond<double>;
     return after_s >= options_.from_s && (options_.to_s < 0.0 || after_s <= options_.to_s);
   }
 

@@ -4,14 +4,13 @@
 #include <sstream>
 
 #include "common/formatted.hpp"
+#include "common/units.hpp"
 #include "modules/log/log_info.hpp"
 
 namespace limbcast::logs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::int64_t kMicroseconds = 1'000'000;
 
 std::string bytes_text(std::int64_t bytes) {
   constexpr double kKilo = 1000.0;
@@ -23,12 +22,12 @@ std::string bytes_text(std::int64_t bytes) {
 
 /// "2026-04-01 00:26:40.000 UTC (1775003200.000000)"
 std::string time_text(std::int64_t utime) {
-  const std::time_t seconds = utime / kMicroseconds;
+  const std::time_t seconds = utime / kMicrosecondsPerSecond<std::int64_t>;
   std::tm utc{};
   gmtime_r(&seconds, &utc);
   char text[32];
   std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M:%S", &utc);
-  const auto micros = static_cast<int>(utime % kMicroseconds);
+  const auto micros = static_cast<int>(utime % kMicrosecondsPerSecond<std::int64_t>);
   return formatted("%s.%03d UTC (%lld.%06d)", text, micros / 1000, static_cast<long long>(seconds),
                    micros);
 }
@@ -63,10 +62,11 @@ void write_channels(const LogInfo& info, std::ostream& out) {
     const std::string type = channel.several_types ? "several types"
                              : channel.foreign     ? "foreign " + channel.type
                                                    : channel.type;
-    out << formatted("%-20s %-22s %8lld %7.2f Hz %10s %10.3f s\n", name.c_str(), type.c_str(),
-                     static_cast<long long>(channel.messages), channel.rate_hz(),
-                     bytes_text(channel.bytes / channel.messages).c_str(),
-                     static_cast<double>(channel.longest_gap_us) / kMicroseconds);
+    out << formatted(
+        "%-20s %-22s %8lld %7.2f Hz %10s %10.3f s\n", name.c_str(), type.c_str(),
+        static_cast<long long>(channel.messages), channel.rate_hz(),
+        bytes_text(channel.bytes / channel.messages).c_str(),
+        static_cast<double>(channel.longest_gap_us) / kMicrosecondsPerSecond<std::int64_t>);
     for (const auto& [sensor, frames] : channel.sensors) {
       out << formatted("  sensor %s: %lld frames, %lld sequence numbers lost", sensor.c_str(),
                        static_cast<long long>(frames.frames), static_cast<long long>(frames.lost));

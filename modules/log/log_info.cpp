@@ -9,14 +9,13 @@
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
+#include "common/units.hpp"
 #include "modules/log/message_types.hpp"
 
 namespace limbcast::logs {
 namespace {
 
 using lcm_io::LogEvent;
-
-constexpr double kMicroseconds = 1e6;
 
 double baseline_of(const stereo_calibration_t& message) {
   return lcm_io::from_message(message).T.norm();
@@ -151,12 +150,13 @@ class Survey {
 }  // namespace
 
 double ChannelInfo::rate_hz() const {
-  const auto duration_s = static_cast<double>(last_utime - first_utime) / kMicroseconds;
+  const auto duration_s =
+      static_cast<double>(last_utime - first_utime) / kMicrosecondsPerSecond<double>;
   return messages > 1 && duration_s > 0.0 ? static_cast<double>(messages - 1) / duration_s : 0.0;
 }
 
 double LogInfo::duration_s() const {
-  return static_cast<double>(last_utime - first_utime) / kMicroseconds;
+  return static_cast<double>(last_utime - first_utime) / kMicrosecondsPerSecond<double>;
 }
 
 LogInfo read_info(const std::string& path, const ChannelFilter& filter) {

@@ -8,6 +8,10 @@
 
 namespace limbcast::segmenter {
 
+/// Of two seeds one of which holds more than this share of the other one's points, both are the
+/// same person's.
+inline constexpr float kSamePersonShare = 0.5F;
+
 /// Why a cluster is no person, and by what figure.
 struct Rejection {
   SegmentFilter filter;

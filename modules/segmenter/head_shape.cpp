@@ -7,13 +7,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/units.hpp"
+
 namespace limbcast::segmenter {
 namespace {
 
 /// From the surface to the head's centre [m]: half of the head's length (ISO 7250: 19 cm), less its
 /// curvature.
 constexpr float kHeadDepth_m = 0.085F;
-constexpr float kPi = 3.14159265F;
 
 struct Offset {
   float right_m, up_m;
@@ -50,7 +51,7 @@ constexpr float kOutside = 0.5F, kNearer = 0.4F;
 std::array<Offset, kRingCount> make_ring() {
   std::array<Offset, kRingCount> ring{};
   for (int i = 0; i < kRingCount; ++i) {
-    const float angle_rad = static_cast<float>(-10 + 20 * i) * kPi / 180.0F;
+    const float angle_rad = static_cast<float>(-10 + 20 * i) * kPi<float> / 180.0F;
     ring[static_cast<std::size_t>(i)] = {kRingRight_m * std::cos(angle_rad),
                                          kRingUp_m * std::sin(angle_rad)};
   }

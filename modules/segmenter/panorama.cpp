@@ -6,10 +6,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/units.hpp"
+
 namespace limbcast::segmenter {
 namespace {
 
-constexpr float kPi = 3.14159265F;
 /// Steepest direction rendered (tangent of the elevation): 55 degrees. Steeper ones show no upright
 /// person.
 constexpr float kMaxSlope = 1.43F;
@@ -27,7 +28,7 @@ Pixel project(const Lattice& panorama, const Eigen::Vector3f& level_m) {
   const float azimuth_rad = std::atan2(level_m.x(), level_m.y());
   const float slope = (level_m.z() - panorama.frame.sensor_height_m) / distance_m;
   const int u =
-      static_cast<int>(std::floor((azimuth_rad + kPi) * panorama.focal_px)) % panorama.width;
+      static_cast<int>(std::floor((azimuth_rad + kPi<float>)*panorama.focal_px)) % panorama.width;
   return {u, static_cast<int>(std::floor((kMaxSlope - slope) * panorama.focal_px)), distance_m};
 }
 
@@ -90,7 +91,7 @@ void fill_gaps(int radius_px, Lattice& panorama) {
     const float depth_m = panorama.depth_m[from];
     const auto width = static_cast<std::size_t>(panorama.width);
     const std::size_t column = i % width, row = i / width;
-    const float azimuth_rad = (static_cast<float>(column) + 0.5F) / panorama.focal_px - kPi;
+    const float azimuth_rad = (static_cast<float>(column) + 0.5F) / panorama.focal_px - kPi<float>;
     const float slope = kMaxSlope - (static_cast<float>(row) + 0.5F) / panorama.focal_px;
     panorama.depth_m[i] = depth_m;
     panorama.level_m[i] = {depth_m * std::sin(azimuth_rad), depth_m * std::cos(azimuth_rad),
@@ -106,8 +107,8 @@ Lattice render_panorama(const Cloud& cloud, const LevelFrame& frame, const Panor
   panorama.frame = frame;
   panorama.depth_noise = cloud.stamp.depth_noise;
   panorama.wraps_around = true;
-  panorama.width = static_cast<int>(std::lround(2.0F * kPi * params.focal_px));
-  panorama.focal_px = static_cast<float>(panorama.width) / (2.0F * kPi);
+  panorama.width = static_cast<int>(std::lround(2.0F * kPi<float> * params.focal_px));
+  panorama.focal_px = static_cast<float>(panorama.width) / (2.0F * kPi<float>);
   panorama.height = static_cast<int>(2.0F * kMaxSlope * panorama.focal_px);
   const std::size_t size =
       static_cast<std::size_t>(panorama.width) * static_cast<std::size_t>(panorama.height);

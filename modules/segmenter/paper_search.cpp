@@ -9,9 +9,6 @@
 namespace limbcast::segmenter {
 namespace {
 
-/// Clusters that share more of the smaller one's points than this are one person's.
-constexpr float kSamePersonShare = 0.5F;
-
 ClusterFigures measure(const Cloud& cloud, const Lattice& lattice, const HeadCandidate& seed,
                        const std::vector<std::uint32_t>& points, const Params& params) {
   std::vector<std::uint8_t> member(cloud.points_m.size(), 0);

@@ -12,9 +12,6 @@
 namespace limbcast::segmenter {
 namespace {
 
-/// A seed most of whose points another one takes over is on the same person.
-constexpr float kSamePersonShare = 0.5F;
-
 /// What became of the heads while they grow together.
 class Trial {
  public:
@@ -202,7 +199,7 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
       return (better.center_m - candidate.center_m).norm() < params.separation_m;
     });
     if (taken)
-      rejected.push_back({candidate, {SegmentFilter::kSamePerson, 1.0F, 0.5F}});
+      rejected.push_back({candidate, {SegmentFilter::kSamePerson, 1.0F, kSamePersonShare}});
     else
       likely.push_back(candidate);
   }

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "common/units.hpp"
+
 namespace limbcast::simulate {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979;
-double radians(double degrees) { return degrees * kPi / 180.0; }
 
 /// Where the wrist of a resting or busy arm is: fractions of a mean adult's stature from the neck
 /// joint (x outward, y up, z forward), and where its elbow goes. Chosen by eye on rendered figures.
@@ -69,7 +68,7 @@ ArmPose bent(Rng& rng, const Vector3d& upper, const Vector3d& fore, HandShape ha
 ArmPose any_arm(Rng& rng) {
   ArmPose arm;
   const double azimuth = rng.uniform(-35.0, 120.0);
-  const double elevation = std::asin(rng.uniform(-1.0, 0.95)) * 180.0 / kPi;
+  const double elevation = std::asin(rng.uniform(-1.0, 0.95)) * 180.0 / kPi<double>;
   arm.upper = heading(azimuth, elevation);
   const double bend = radians(rng.uniform(0.0, 145.0));
   // The forearm folds forward and up, turned by the upper arm's roll.

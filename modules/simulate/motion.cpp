@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "common/human_model/shortest_turn.hpp"
+#include "common/units.hpp"
 
 namespace limbcast::simulate {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979;
 constexpr double kWalk_s = 3.0;  // until a walker stops
 constexpr double kMove_s = 0.7;  // from one posture to the next
 constexpr double kHold_s = 1.2;  // at each thing pointed at
@@ -28,7 +28,7 @@ MotionKind drawn(MotionKind kind, Rng& rng) {
 }
 
 double middle_of_feet_z(const BodyShape& body, const Posture& posture) {
-  const Skeleton skeleton = make_skeleton(body, posture, {0.0, 0.0, kPi});  // forward is +z
+  const Skeleton skeleton = make_skeleton(body, posture, {0.0, 0.0, kPi<double>});  // forward is +z
   return 0.5 * (skeleton[Joint::kAnkleLeft].z() + skeleton[Joint::kAnkleRight].z());
 }
 
@@ -102,7 +102,7 @@ double Motion::walked_m(double seconds) const {
 Posture Motion::posture(double seconds) const {
   if (kind_ == MotionKind::kWalkPoint) {
     const double step_m = 0.41 * body_.stature_m;
-    const Posture walk = walking(body_, kPi * walked_m(seconds) / step_m);
+    const Posture walk = walking(body_, kPi<double> * walked_m(seconds) / step_m);
     return between(walk, stations_.front(), progress(seconds, kWalk_s, kMove_s));
   }
   if (kind_ == MotionKind::kSitDown) {
@@ -111,7 +111,7 @@ Posture Motion::posture(double seconds) const {
   if (kind_ == MotionKind::kWave) {
     Posture posture = between(stations_[0], stations_[1], progress(seconds, 0.3, kMove_s));
     const double swing =
-        progress(seconds, 0.3 + kMove_s, 0.3) * std::sin(2.0 * kPi * kWave_Hz * seconds);
+        progress(seconds, 0.3 + kMove_s, 0.3) * std::sin(2.0 * kPi<double> * kWave_Hz * seconds);
     ArmPose& arm = posture.arms[waving_side_];
     arm.fore = Eigen::AngleAxisd(0.45 * swing, Vector3d::UnitZ()) * arm.fore;
     return posture;

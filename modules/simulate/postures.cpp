@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/units.hpp"
 #include "modules/simulate/arm_poses.hpp"
 #include "modules/simulate/body_surface.hpp"
 
@@ -10,9 +11,6 @@ namespace limbcast::simulate {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979;
-double radians(double degrees) { return degrees * kPi / 180.0; }
 
 /// Draws an arm until it goes through nothing; after 30 draws the best so far.
 void set_arm(Rng& rng, const BodyShape& body, const std::string& name, Side side,
@@ -137,7 +135,7 @@ Posture walking(const BodyShape& body, double phase_rad) {
   posture.name = "walk";
   posture.lean_rad = 0.05;
   for (int side = 0; side < 2; ++side) {
-    const double phase = phase_rad + (side == 0 ? 0.0 : kPi);
+    const double phase = phase_rad + (side == 0 ? 0.0 : kPi<double>);
     const double swing = radians(24.0) * std::sin(phase);
     // The knee bends most while the leg comes forward.
     const double knee =
@@ -158,7 +156,7 @@ Posture walking(const BodyShape& body, double phase_rad) {
 Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
   Posture posture;
   if (name == "walk") {
-    posture = walking(body, rng.uniform(0.0, 2.0 * kPi));
+    posture = walking(body, rng.uniform(0.0, 2.0 * kPi<double>));
     move_trunk(rng, posture);
     return posture;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/units.hpp"
 #include "modules/simulate/body_surface.hpp"
 
 namespace limbcast::simulate {
@@ -12,9 +13,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979;
 constexpr double kEnd_s = 1e3;  // every motion has come to its end
-double radians(double degrees) { return degrees * kPi / 180.0; }
 
 const char* name_of(SetKind set) {
   switch (set) {
@@ -61,7 +60,7 @@ int draw_count(Rng& rng, const ScenarioParams& params) {
 
 /// Most people face the camera; some stand in any direction.
 double draw_yaw(Rng& rng) {
-  return rng.chance(0.6) ? radians(rng.normal(0.0, 40.0)) : rng.uniform(-kPi, kPi);
+  return rng.chance(0.6) ? radians(rng.normal(0.0, 40.0)) : rng.uniform(-kPi<double>, kPi<double>);
 }
 
 bool in_view(const PinholeCamera& camera, const Isometry3d& sensor_from_world,
@@ -229,7 +228,7 @@ Scenario draw_scenario(const ScenarioParams& params, const PinholeCamera& camera
   }
   scenario.down = sensor_from_world.linear() * Vector3d(0, -1, 0);
   scenario.sensor_height_m = view.height_m;
-  scenario.pitch_down_deg = view.pitch_down_rad * 180.0 / kPi;
+  scenario.pitch_down_deg = view.pitch_down_rad * 180.0 / kPi<double>;
   Rng sky = rng.derive(10);
   const Vector3d light(sky.normal(0.0, 0.7), 1.0, -0.6 + sky.normal(0.0, 0.5));
   scenario.light = (sensor_from_world.linear() * light.normalized()).cast<float>();

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/units.hpp"
+
 namespace limbcast::tracker {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Weight of a new sample in an exponential filter of that cutoff.
 float sample_weight(double cutoff_hz, double elapsed_s) {
-  const double time_constant_s = 1.0 / (2.0 * kPi * cutoff_hz);
+  const double time_constant_s = 1.0 / (2.0 * kPi<double> * cutoff_hz);
   return static_cast<float>(elapsed_s / (elapsed_s + time_constant_s));
 }
 
@@ -31,7 +31,7 @@ void OneEuroFilter::update(const Eigen::Vector3f& value, double elapsed_s) {
   distance_ += change * (value - value_ - distance_);
   const double too_far = std::max(0.0, distance_.norm() - params_.rest_distance);
   const double motion = std::max(0.0, speed_.norm() - params_.rest_speed) +
-                        2.0 * kPi * params_.speed_cutoff_hz * too_far;
+                        2.0 * kPi<double> * params_.speed_cutoff_hz * too_far;
   const double cutoff_hz = params_.min_cutoff_hz + params_.speed_coefficient * motion;
   memory_ = std::min(memory_ + 1.0, 1.0 / sample_weight(cutoff_hz, elapsed_s));
   value_ += (value - value_) / static_cast<float>(memory_);

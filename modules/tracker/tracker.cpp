@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/units.hpp"
 #include "modules/tracker/assignment.hpp"
 
 namespace limbcast::tracker {
 namespace {
-
-constexpr double kMicroseconds = 1e6;
 
 /// Dearer than any pair within the gate, so that every such pair is made: of a person not seen for
 /// long and with another body too.
@@ -19,7 +18,7 @@ constexpr double kCostAlone = 1e3;
 std::optional<BodyPoses> Tracker::track(const BodyPoses& measured) {
   const double elapsed_s =
       static_cast<double>(measured.stamp.utime - last_utime_.value_or(measured.stamp.utime)) /
-      kMicroseconds;
+      kMicrosecondsPerSecond<double>;
   const bool jumped = std::abs(elapsed_s) > params_.identity.forget_after_s;
   if (last_utime_ && elapsed_s <= 0.0 && !jumped) return std::nullopt;
   last_utime_ = measured.stamp.utime;

@@ -1,6 +1,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/formatted.hpp"
+#include "common/units.hpp"
 #include "modules/viewer/painting.hpp"
 #include "modules/viewer/pictures.hpp"
 
@@ -30,9 +31,9 @@ const char* source_name(GravitySource source) {
 
 /// Nothing where it is not told.
 std::string degrees(float sigma_rad) {
-  constexpr double kDegrees = 57.29577951;
-  return sigma_rad > 0.0F ? formatted(" +-%.1f deg", kDegrees * static_cast<double>(sigma_rad))
-                          : "";
+  return sigma_rad > 0.0F
+             ? formatted(" +-%.1f deg", kDegreesPerRadian<double> * static_cast<double>(sigma_rad))
+             : "";
 }
 
 void append_modules(const std::vector<ModuleFigures>& modules, std::vector<std::string>& lines) {

@@ -15,12 +15,10 @@
 #include "common/lcm_io/segments_codec.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
+#include "tests/common/infinite_numbers.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Stamp test_stamp() {
   Stamp stamp;

@@ -7,14 +7,13 @@
 #include <set>
 
 #include "common/formatted.hpp"
+#include "common/units.hpp"
 
 namespace limbcast::replay {
 namespace {
 
-constexpr float kDegrees = 57.2957795F;
-
 float angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian<float>;
 }
 
 class Comparison {

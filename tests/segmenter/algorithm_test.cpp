@@ -115,17 +115,17 @@ TEST(Algorithm1, ForgetsTheClusterBeforeIt) {
   EXPECT_THAT(grow_cluster(cloud, 5, kDown, {}, {}, *search), SizeIs(6));
 }
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kCloudWidth = 64, kCloudHeight = 48;
 
 /// A camera's cloud; depth_of(u, v) tells the depth, 0 for a hole.
 template <class DepthOf>
 Cloud camera_cloud(DepthOf depth_of) {
   Cloud cloud;
-  cloud.camera = PinholeCamera{kWidth, kHeight, 50.0, 52.0, 31.5, 23.5};
-  cloud.width = kWidth;
-  cloud.height = kHeight;
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
+  cloud.camera = PinholeCamera{kCloudWidth, kCloudHeight, 50.0, 52.0, 31.5, 23.5};
+  cloud.width = kCloudWidth;
+  cloud.height = kCloudHeight;
+  for (int v = 0; v < kCloudHeight; ++v) {
+    for (int u = 0; u < kCloudWidth; ++u) {
       cloud.points_m.push_back(
           cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), depth_of(u, v)));
     }

@@ -9,7 +9,7 @@
 
 namespace limbcast::segmenter {
 
-inline constexpr int kWidth = 160, kHeight = 240;
+inline constexpr int kSceneWidth = 160, kSceneHeight = 240;
 inline constexpr float kFocal_px = 260.0F;
 inline constexpr float kBody_m = 3.0F;
 
@@ -19,14 +19,14 @@ using Scene = std::function<float(float right_m, float up_m)>;
 /// What a level camera sees of a scene; the ground is not known.
 inline Lattice look_at(const Scene& depth_at) {
   Lattice lattice;
-  lattice.width = kWidth;
-  lattice.height = kHeight;
+  lattice.width = kSceneWidth;
+  lattice.height = kSceneHeight;
   lattice.focal_px = kFocal_px;
   lattice.frame = make_level_frame(Gravity{}, std::nullopt);
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
-      const float right = (static_cast<float>(u) - 0.5F * kWidth) / kFocal_px,
-                  up = (0.5F * kHeight - static_cast<float>(v)) / kFocal_px;
+  for (int v = 0; v < kSceneHeight; ++v) {
+    for (int u = 0; u < kSceneWidth; ++u) {
+      const float right = (static_cast<float>(u) - 0.5F * kSceneWidth) / kFocal_px,
+                  up = (0.5F * kSceneHeight - static_cast<float>(v)) / kFocal_px;
       const float z_m = depth_at(right * kBody_m, up * kBody_m);
       lattice.depth_m.push_back(z_m);
       lattice.level_m.emplace_back(right * z_m, z_m, up * z_m);
@@ -37,16 +37,16 @@ inline Lattice look_at(const Scene& depth_at) {
 }
 
 inline std::uint32_t index_at(const Lattice& lattice, float right_m, float up_m) {
-  const int u = kWidth / 2 + static_cast<int>(right_m / kBody_m * kFocal_px),
-            v = kHeight / 2 - static_cast<int>(up_m / kBody_m * kFocal_px);
+  const int u = kSceneWidth / 2 + static_cast<int>(right_m / kBody_m * kFocal_px),
+            v = kSceneHeight / 2 - static_cast<int>(up_m / kBody_m * kFocal_px);
   return static_cast<std::uint32_t>(lattice.index(u, v));
 }
 
 inline HeadCandidate head_at(const Lattice& lattice, float right_m, float up_m) {
   const auto i = static_cast<int>(index_at(lattice, right_m, up_m));
   HeadCandidate head;
-  head.u = i % kWidth;
-  head.v = i / kWidth;
+  head.u = i % kSceneWidth;
+  head.v = i / kSceneWidth;
   head.surface_m = lattice.level_m[static_cast<std::size_t>(i)];
   head.center_m = head_center(lattice, head.surface_m);
   return head;

@@ -13,18 +13,18 @@
 namespace limbcast::segmenter {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
-constexpr float kFocal_px = 260.0F, kWall_m = 6.0F;
+constexpr int kViewWidth = 320, kViewHeight = 240;
+constexpr float kViewFocal_px = 260.0F, kWall_m = 6.0F;
 
 /// A camera's lattice that looks level at a bare wall.
 class Picture {
  public:
   Picture() {
-    lattice_.width = kWidth;
-    lattice_.height = kHeight;
-    lattice_.focal_px = kFocal_px;
+    lattice_.width = kViewWidth;
+    lattice_.height = kViewHeight;
+    lattice_.focal_px = kViewFocal_px;
     lattice_.frame.level_from_sensor << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-    lattice_.depth_m.assign(kWidth * kHeight, kWall_m);
+    lattice_.depth_m.assign(kViewWidth * kViewHeight, kWall_m);
   }
 
   /// A flat head and shoulders, `right_m` of the optical axis.
@@ -47,8 +47,8 @@ class Picture {
   Lattice lattice(const DepthNoise& noise = {}) const {
     Lattice lattice = lattice_;
     lattice.depth_noise = noise;
-    for (int v = 0; v < kHeight; ++v) {
-      for (int u = 0; u < kWidth; ++u)
+    for (int v = 0; v < kViewHeight; ++v) {
+      for (int u = 0; u < kViewWidth; ++u)
         lattice.level_m.push_back(
             lattice.frame.to_level(ray(u, v) * lattice.depth_m[lattice.index(u, v)]));
     }
@@ -57,13 +57,13 @@ class Picture {
 
  private:
   static Eigen::Vector3f ray(int u, int v) {
-    return {(static_cast<float>(u - kWidth / 2) + 0.5F) / kFocal_px,
-            (static_cast<float>(v - kHeight / 2) + 0.5F) / kFocal_px, 1.0F};
+    return {(static_cast<float>(u - kViewWidth / 2) + 0.5F) / kViewFocal_px,
+            (static_cast<float>(v - kViewHeight / 2) + 0.5F) / kViewFocal_px, 1.0F};
   }
   template <class Draw>
   void for_each_pixel(const Draw& draw) {
-    for (int v = 0; v < kHeight; ++v) {
-      for (int u = 0; u < kWidth; ++u)
+    for (int v = 0; v < kViewHeight; ++v) {
+      for (int u = 0; u < kViewWidth; ++u)
         draw(ray(u, v).x(), ray(u, v).y(), lattice_.depth_m[lattice_.index(u, v)]);
     }
   }

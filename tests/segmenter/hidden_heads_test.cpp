@@ -8,8 +8,8 @@ namespace limbcast::segmenter {
 namespace {
 
 constexpr float kSensorHeight_m = 1.2F;
-constexpr float kWall_m = 5.0F;
-constexpr float kEdge_m = 0.5F * kWidth / kFocal_px * kBody_m;
+constexpr float kBackdrop_m = 5.0F;
+constexpr float kEdge_m = 0.5F * kSceneWidth / kFocal_px * kBody_m;
 /// Shoulders and soles against the sensor's height, and half the width of a trunk.
 constexpr float kShoulder_m = 0.2F, kSole_m = -1.1F, kTrunk_m = 0.2F;
 
@@ -17,7 +17,7 @@ constexpr float kShoulder_m = 0.2F, kSole_m = -1.1F, kTrunk_m = 0.2F;
 Lattice look_into_room(const Scene& depth_at) {
   Lattice lattice = look_at([&](float right_m, float up_m) {
     const float z_m = depth_at(right_m, up_m);
-    return z_m > 0.0F ? z_m : kWall_m;
+    return z_m > 0.0F ? z_m : kBackdrop_m;
   });
   lattice.frame.ground_known = true;
   lattice.frame.sensor_height_m = kSensorHeight_m;

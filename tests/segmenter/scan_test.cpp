@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/cloud/ground_plane.hpp"
+#include "common/units.hpp"
 #include "modules/segmenter/cluster_figures.hpp"
 #include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/range_image.hpp"
@@ -15,8 +16,6 @@
 
 namespace limbcast::segmenter {
 namespace {
-
-constexpr float kPi = 3.14159265F;
 
 Cloud scan_of(std::vector<Eigen::Vector3f> points_m) {
   Cloud cloud;
@@ -77,7 +76,7 @@ ClusterFigures figures_at(float azimuth_rad) {
 
 TEST(ClusterFigures, AreTheSameOnAllSidesOfAScanner) {
   const ClusterFigures ahead = figures_at(0.0F);
-  for (const float azimuth_rad : {-0.5F * kPi, 0.25F * kPi, 0.8F * kPi}) {
+  for (const float azimuth_rad : {-0.5F * kPi<float>, 0.25F * kPi<float>, 0.8F * kPi<float>}) {
     const ClusterFigures turned = figures_at(azimuth_rad);
     // A pixel of the panorama is 2 cm wide there, and each side may lose one.
     EXPECT_NEAR(turned.shoulder_width_m, ahead.shoulder_width_m, 0.04F);

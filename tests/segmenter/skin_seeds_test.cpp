@@ -9,16 +9,16 @@ namespace {
 
 /// Middle of the most common component of skin in Jones and Rehg 2002, Table 2; a blue wall.
 constexpr Bgr kSkin{75, 98, 151}, kWall{190, 120, 60};
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kImageWidth = 64, kImageHeight = 48;
 
 /// A blue wall 2 m away with skin-coloured squares of `side_px`, their corners at `corners`.
 Cloud wall_with_skin(const std::vector<Eigen::Vector2i>& corners, int side_px) {
   Cloud cloud;
-  cloud.camera = PinholeCamera{kWidth, kHeight, 50.0, 50.0, 31.5, 23.5};
-  cloud.width = kWidth;
-  cloud.height = kHeight;
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
+  cloud.camera = PinholeCamera{kImageWidth, kImageHeight, 50.0, 50.0, 31.5, 23.5};
+  cloud.width = kImageWidth;
+  cloud.height = kImageHeight;
+  for (int v = 0; v < kImageHeight; ++v) {
+    for (int u = 0; u < kImageWidth; ++u) {
       cloud.points_m.push_back(
           cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), 2.0F));
       bool skin = false;

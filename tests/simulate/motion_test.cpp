@@ -7,7 +7,7 @@
 namespace limbcast::simulate {
 namespace {
 
-const PinholeCamera kCamera{160, 120, 130.0, 130.0, 79.5, 59.5};
+const PinholeCamera kSmallCamera{160, 120, 130.0, 130.0, 79.5, 59.5};
 
 ScenarioParams sequence(MotionKind motion) {
   ScenarioParams params;
@@ -17,7 +17,7 @@ ScenarioParams sequence(MotionKind motion) {
 }
 
 Person person_at(MotionKind motion, double seconds) {
-  return draw_scenario(sequence(motion), kCamera, 3, static_cast<int>(10.0 * seconds))
+  return draw_scenario(sequence(motion), kSmallCamera, 3, static_cast<int>(10.0 * seconds))
       .persons.at(0);
 }
 

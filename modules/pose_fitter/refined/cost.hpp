@@ -10,6 +10,9 @@
 
 namespace limbcast::pose_fitter::refined {
 
+/// What lies nearer to the sensor is in no image [m].
+inline constexpr Real kNearestM = 0.3;
+
 /// Nearest cone of each point: signed distance to its surface [m], place on its axis (0 to 1), its
 /// index. Columns are padded as those of the points are.
 struct NearestCones {

@@ -17,7 +17,6 @@ constexpr Real kClearanceLimitSigmas = 10.0;
 constexpr Real kDepthShare = 0.8;
 constexpr Real kDepthSigmaM = 0.02;
 constexpr Real kDepthLimitSigmas = 6.0;
-constexpr Real kNearestM = 0.3;
 
 /// Clearance at a pixel and its gradient [px].
 struct Clearance {

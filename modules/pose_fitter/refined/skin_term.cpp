@@ -6,7 +6,6 @@ namespace limbcast::pose_fitter::refined {
 namespace {
 
 constexpr Real kSigmaM = 0.04;
-constexpr Real kNearestM = 0.3;
 /// Gloves, shadow and long sleeves hide skin: a hand without it costs so much and no more.
 constexpr Real kLimitSigmas = 2.5;
 /// Place on the axis from wrist to finger tips.
