@@ -38,11 +38,23 @@ bool StatusCounter::received(const std::string& sensor, std::int64_t sequence) {
 
 void StatusCounter::count_gap(Sequence& numbers, std::int64_t next) {
   // Packets overtake one another within milliseconds; what is missing for longer is lost.
-  constexpr std::int64_t kLatestFrames = 16;
-  num_gaps_ += next - numbers.last - 1;
-  for (std::int64_t i = std::max(numbers.last + 1, next - kLatestFrames); i < next; ++i)
-    numbers.missing.insert(i);
-  numbers.missing.erase(numbers.missing.begin(), numbers.missing.lower_bound(next - kLatestFrames));
+  constexpr std::uint64_t kLatestFrames = 16;
+  // An hour's frames: who counts on from there is another source.
+  constexpr std::uint64_t kMostLost = 100'000;
+  // Any number may stand in a message, so that only unsigned differences are sure not to overflow.
+  const auto steps_back = [next](std::int64_t sequence) {
+    return static_cast<std::uint64_t>(next) - static_cast<std::uint64_t>(sequence);
+  };
+  const std::uint64_t step = steps_back(numbers.last);
+  if (step > kMostLost) {
+    numbers.missing.clear();
+    return;
+  }
+  num_gaps_ += static_cast<std::int64_t>(step) - 1;
+  while (!numbers.missing.empty() && steps_back(*numbers.missing.begin()) > kLatestFrames)
+    numbers.missing.erase(numbers.missing.begin());
+  const auto num_missing = static_cast<std::int64_t>(std::min(step - 1, kLatestFrames));
+  for (std::int64_t i = num_missing; i > 0; --i) numbers.missing.insert(next - i);
 }
 
 void StatusCounter::published(std::int64_t frame_utime, std::int64_t now_utime) {

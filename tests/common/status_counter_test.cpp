@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace limbcast::lcm_io {
 namespace {
@@ -48,6 +49,16 @@ TEST(StatusCounter, TakesNumbersOfARestartedSourceAsNewAlthoughOnceMissed) {
   EXPECT_TRUE(counter.received("front", 2));
   EXPECT_EQ(counter.num_gaps(), 2);
   EXPECT_EQ(counter.num_late(), 0);
+}
+
+TEST(StatusCounter, CountsNoLossWhereTheNumbersAreAnotherSources) {
+  StatusCounter counter;
+  constexpr std::int64_t kSmallest = std::numeric_limits<std::int64_t>::min(),
+                         kLargest = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t sequence : {kSmallest, kSmallest + 2, kLargest, std::int64_t{5}})
+    EXPECT_TRUE(counter.received("front", sequence));
+  EXPECT_EQ(counter.num_gaps(), 1);
+  EXPECT_EQ(counter.num_received(), 4);
 }
 
 TEST(StatusCounter, TellsRatesAndPercentilesOfThePeriod) {
