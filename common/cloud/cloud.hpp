@@ -59,7 +59,10 @@ struct Cloud {
   int width = 0, height = 0;
   std::optional<PinholeCamera> camera;
   std::vector<Eigen::Vector3f> points_m;  ///< width * height of them; finite
-  std::vector<Bgr> colors;  ///< empty, or one for each point (holes of a camera's cloud too)
+  // Each of these is empty, or holds one for each point (holes of a camera's cloud too).
+  std::vector<Bgr> colors;
+  std::vector<float> intensities;  ///< how strongly the light came back [the sensor's unit]; finite
+  std::vector<std::uint16_t> rings;  ///< number of the laser that measured the point
 
   bool organized() const { return camera.has_value(); }
   bool is_hole(std::size_t index) const { return camera && points_m[index].z() <= 0.0F; }

@@ -61,6 +61,33 @@ void read_list_layout(const point_cloud_t& message, Cloud& cloud) {
       message.resolution_m);
 }
 
+void write_laser_values(const Cloud& cloud, point_cloud_t& message) {
+  if (!cloud.intensities.empty()) {
+    message.intensity_step = value_step(cloud.intensities);
+    message.intensities =
+        encode_sequence(quantize_values(cloud.intensities, message.intensity_step));
+  }
+  if (!cloud.rings.empty()) {
+    // The coding works modulo 2^16, so it carries unsigned numbers as well.
+    message.rings = encode_sequence({cloud.rings.begin(), cloud.rings.end()});
+  }
+  message.intensities_size = static_cast<std::int32_t>(message.intensities.size());
+  message.rings_size = static_cast<std::int32_t>(message.rings.size());
+}
+
+void read_laser_values(const point_cloud_t& message, Cloud& cloud) {
+  if (!message.intensities.empty()) {
+    require(std::isfinite(message.intensity_step) && message.intensity_step > 0.0,
+            "point cloud: 'intensity_step' is not positive");
+    cloud.intensities = dequantize_values(
+        decode_sequence(message.intensities, cloud.points_m.size()), message.intensity_step);
+  }
+  if (!message.rings.empty()) {
+    const std::vector<std::int16_t> codes = decode_sequence(message.rings, cloud.points_m.size());
+    cloud.rings.assign(codes.begin(), codes.end());
+  }
+}
+
 }  // namespace
 
 point_cloud_t to_message(const Cloud& cloud, int jpeg_quality) {
@@ -87,6 +114,7 @@ point_cloud_t to_message(const Cloud& cloud, int jpeg_quality) {
     message.color = to_raw_message(color_image(cloud));
   }
   message.points_size = static_cast<std::int32_t>(message.points.size());
+  write_laser_values(cloud, message);
   return message;
 }
 
@@ -115,6 +143,7 @@ Cloud from_message(const point_cloud_t& message) {
   } else {
     cloud.colors = colors_of(from_message(message.color), cloud);
   }
+  read_laser_values(message, cloud);
   return cloud;
 }
 

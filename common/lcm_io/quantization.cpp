@@ -10,6 +10,11 @@ namespace {
 constexpr double kMaxDepthCode = std::numeric_limits<std::uint16_t>::max();
 constexpr double kMaxListCode = std::numeric_limits<std::int16_t>::max();
 
+std::int16_t list_code(float value, double step) {
+  return static_cast<std::int16_t>(
+      std::clamp(std::round(value / step), -kMaxListCode, kMaxListCode));
+}
+
 }  // namespace
 
 double inverse_depth_scale(const DepthNoise& noise, const QuantizationParams& params) {
@@ -50,8 +55,7 @@ std::vector<std::int16_t> quantize_points(const std::vector<Eigen::Vector3f>& po
   codes.reserve(points_m.size() * 3);
   for (int axis = 0; axis < 3; ++axis)
     for (const Eigen::Vector3f& point_m : points_m)
-      codes.push_back(static_cast<std::int16_t>(
-          std::clamp(std::round(point_m[axis] / resolution_m), -kMaxListCode, kMaxListCode)));
+      codes.push_back(list_code(point_m[axis], resolution_m));
   return codes;
 }
 
@@ -63,6 +67,31 @@ std::vector<Eigen::Vector3f> dequantize_points(const std::vector<std::int16_t>& 
     for (int axis = 0; axis < 3; ++axis)
       points_m[i][axis] = static_cast<float>(codes[axis * count + i] * resolution_m);
   return points_m;
+}
+
+double value_step(const std::vector<float>& values) {
+  double largest = 0.0;
+  bool all_whole = true;
+  for (const float value : values) {
+    largest = std::max(largest, std::abs(static_cast<double>(value)));
+    all_whole = all_whole && std::round(value) == value;
+  }
+  if (all_whole && largest <= kMaxListCode) return 1.0;
+  return largest / kMaxListCode;
+}
+
+std::vector<std::int16_t> quantize_values(const std::vector<float>& values, double step) {
+  std::vector<std::int16_t> codes;
+  codes.reserve(values.size());
+  for (const float value : values) codes.push_back(list_code(value, step));
+  return codes;
+}
+
+std::vector<float> dequantize_values(const std::vector<std::int16_t>& codes, double step) {
+  std::vector<float> values;
+  values.reserve(codes.size());
+  for (const std::int16_t code : codes) values.push_back(static_cast<float>(code * step));
+  return values;
 }
 
 }  // namespace limbcast::lcm_io

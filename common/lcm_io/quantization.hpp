@@ -36,4 +36,10 @@ std::vector<std::int16_t> quantize_points(const std::vector<Eigen::Vector3f>& po
 std::vector<Eigen::Vector3f> dequantize_points(const std::vector<std::int16_t>& codes,
                                                double resolution_m);
 
+/// Step with which all of these values fit 16 bits: 1 where it loses nothing (whole numbers, as
+/// most scanners give intensities), else as fine as 16 bits allow.
+double value_step(const std::vector<float>& values);
+std::vector<std::int16_t> quantize_values(const std::vector<float>& values, double step);
+std::vector<float> dequantize_values(const std::vector<std::int16_t>& codes, double step);
+
 }  // namespace limbcast::lcm_io

@@ -30,6 +30,8 @@ RawCloud converted(const RawCloud& raw, const Axes& axes, const CloudSourceParam
     if (range_m < params.near_limit_m || range_m > params.far_limit_m) continue;
     cloud.points.push_back(point_m);
     if (!raw.colors.empty()) cloud.colors.push_back(raw.colors[i]);
+    if (!raw.intensities.empty()) cloud.intensities.push_back(raw.intensities[i]);
+    if (!raw.rings.empty()) cloud.rings.push_back(raw.rings[i]);
   }
   return cloud;
 }
@@ -110,8 +112,8 @@ class VelodyneSource : public CloudSource {
       if (packet->payload.size() != kVelodynePacketBytes) continue;
       if (!decoder_) decoder_.emplace(model_of(*packet));
       if (auto sweep = decoder_->add(packet->payload, packet->utime)) {
-        RawCloud raw;
-        raw.points = std::move(sweep->points_m);
+        const RawCloud raw{
+            std::move(sweep->points_m), {}, std::move(sweep->intensities), std::move(sweep->rings)};
         return CloudFrame{
             stamp_of(params_, sweep->utime, sequence_++), converted(raw, axes_, params_), {}};
       }

@@ -48,6 +48,8 @@ Cloud make_cloud(CloudFrame& frame, const Options& options) {
   cloud.stamp.depth_noise.constant_m = static_cast<float>(options.noise_m);
   cloud.points_m = std::move(frame.cloud.points);
   cloud.colors = std::move(frame.cloud.colors);
+  cloud.intensities = std::move(frame.cloud.intensities);
+  cloud.rings = std::move(frame.cloud.rings);
   cloud.width = static_cast<int>(cloud.points_m.size());
   cloud.height = 1;
   if (options.ground_plane) complete_gravity(cloud);

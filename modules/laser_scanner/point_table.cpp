@@ -91,6 +91,18 @@ class ColorReader {
   bool has_channels_ = true;
 };
 
+/// What a ring's column holds. Throws InputError where that is no number of a ring.
+std::uint16_t read_ring(const Place& place, const std::uint8_t* row, const std::string& where) {
+  const float ring = read_number(place, row);
+  const bool is_number =
+      ring >= 0.0F && ring <= std::numeric_limits<std::uint16_t>::max() && std::floor(ring) == ring;
+  if (!is_number) {
+    throw InputError(where + ": its column '" + place.column->name + "' holds " +
+                     std::to_string(ring) + ", no number of a ring from 0 to 65535; rename it");
+  }
+  return static_cast<std::uint16_t>(ring);
+}
+
 }  // namespace
 
 std::size_t PointTable::row_bytes() const {
@@ -111,6 +123,10 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
     throw InputError(where + ": is torn, holds fewer points than its header says; copy it again");
   }
   const ColorReader color(table);
+  // As PCL, ROS drivers, PDAL and CloudCompare name them.
+  const auto intensity =
+      find(table, {"intensity", "Intensity", "scalar_Intensity", "reflectivity", "reflectance"});
+  const auto ring = find(table, {"ring", "scalar_ring", "laser_id"});
   RawCloud cloud;
   for (std::size_t i = 0; i < table.num_points; ++i) {
     const std::uint8_t* row = bytes.data() + i * table.row_bytes();
@@ -118,6 +134,11 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
     if (!point.allFinite()) continue;
     cloud.points.push_back(point);
     if (color.has_color()) cloud.colors.push_back(color.read(row));
+    if (intensity) {
+      const float value = read_number(*intensity, row);
+      cloud.intensities.push_back(std::isfinite(value) ? value : 0.0F);
+    }
+    if (ring) cloud.rings.push_back(read_ring(*ring, row, where));
   }
   return cloud;
 }

@@ -1,5 +1,6 @@
 #include "modules/laser_scanner/velodyne.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace limbcast::laser_scanner {
@@ -33,6 +34,25 @@ double share_of_block(VelodyneModel model, int index) {
 double elevation_deg(VelodyneModel model, int index) {
   return model == VelodyneModel::kHdl32 ? kHdl32Elevations[static_cast<std::size_t>(index)]
                                         : kVlp16Elevations[static_cast<std::size_t>(index % 16)];
+}
+
+/// Rank of the laser's elevation among all.
+template <std::size_t kLasers>
+std::array<std::uint16_t, kLasers> rings_of(const std::array<double, kLasers>& elevations) {
+  std::array<std::uint16_t, kLasers> rings{};
+  for (std::size_t i = 0; i < kLasers; ++i) {
+    rings[i] = static_cast<std::uint16_t>(
+        std::count_if(elevations.begin(), elevations.end(),
+                      [&](double elevation) { return elevation < elevations[i]; }));
+  }
+  return rings;
+}
+
+std::uint16_t ring(VelodyneModel model, int index) {
+  static const auto kVlp16Rings = rings_of(kVlp16Elevations);
+  static const auto kHdl32Rings = rings_of(kHdl32Elevations);
+  return model == VelodyneModel::kHdl32 ? kHdl32Rings[static_cast<std::size_t>(index)]
+                                        : kVlp16Rings[static_cast<std::size_t>(index % 16)];
 }
 
 int number_16(const std::uint8_t* bytes) { return bytes[0] | bytes[1] << 8; }
@@ -97,7 +117,8 @@ std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packe
 
 void VelodyneDecoder::add_block(const std::uint8_t* returns, double azimuth_deg, double turn_deg) {
   for (int i = 0; i < kReturns; ++i) {
-    const int distance = number_16(returns + static_cast<std::size_t>(i) * kReturnBytes);
+    const std::uint8_t* bytes = returns + static_cast<std::size_t>(i) * kReturnBytes;
+    const int distance = number_16(bytes);
     if (distance == 0) continue;
     const double range_m = kDistanceUnit_m * distance;
     const double azimuth = kRadiansPerDegree * (azimuth_deg + turn_deg * share_of_block(model_, i));
@@ -106,6 +127,8 @@ void VelodyneDecoder::add_block(const std::uint8_t* returns, double azimuth_deg,
     sweep_.points_m.emplace_back(static_cast<float>(level_m * std::sin(azimuth)),
                                  static_cast<float>(level_m * std::cos(azimuth)),
                                  static_cast<float>(range_m * std::sin(elevation)));
+    sweep_.intensities.push_back(bytes[2]);
+    sweep_.rings.push_back(ring(model_, i));
   }
 }
 

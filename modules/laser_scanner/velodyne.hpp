@@ -24,6 +24,8 @@ struct Sweep {
   std::int64_t utime = 0;  ///< middle of its packets [us]
   /// In the scanner's frame: x right, y forward, z up [m]. Lasers that got no return are left out.
   std::vector<Eigen::Vector3f> points_m;
+  std::vector<float> intensities;    ///< calibrated reflectivity of each point, 0 to 255
+  std::vector<std::uint16_t> rings;  ///< laser of each point, from the lowest one, 0, upwards
 };
 
 /// Puts the packets of a Velodyne together to whole turns (User's Manual VLP-16, 63-9243, chapter

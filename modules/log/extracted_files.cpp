@@ -63,6 +63,27 @@ Json person_json(const BodyPose& person) {
   return json;
 }
 
+/// A colour as PCD has it: 0x00RRGGBB.
+std::uint32_t packed(const Bgr& color) {
+  return static_cast<std::uint32_t>(color.r << 16 | color.g << 8 | color.b);
+}
+
+/// The lines of a PCD header that tell what each point holds.
+std::string pcd_fields(const Cloud& cloud) {
+  std::string fields = "FIELDS x y z", sizes = "SIZE 4 4 4", types = "TYPE F F F",
+              counts = "COUNT 1 1 1";
+  const auto add = [&](const char* field, const char* size, const char* type) {
+    fields += field;
+    sizes += size;
+    types += type;
+    counts += " 1";
+  };
+  if (!cloud.colors.empty()) add(" rgb", " 4", " U");
+  if (!cloud.intensities.empty()) add(" intensity", " 4", " F");
+  if (!cloud.rings.empty()) add(" ring", " 2", " U");
+  return fields + '\n' + sizes + '\n' + types + '\n' + counts + '\n';
+}
+
 /// Who told gravity knew it, rather than found or supposed it.
 bool tells_gravity(const Gravity& gravity) {
   return gravity.source == GravitySource::kRecording || gravity.source == GravitySource::kOption;
@@ -80,25 +101,22 @@ void write_picture(const std::string& path, const image_t& image) {
 }
 
 void write_cloud(const std::string& path, const Cloud& cloud) {
-  const bool colored = !cloud.colors.empty();
   std::string records;
   std::size_t count = 0;
+  const auto append = [&records](const auto& value) {
+    records.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
   for (std::size_t i = 0; i < cloud.points_m.size(); ++i) {
     if (cloud.is_hole(i)) continue;
     ++count;
-    records.append(reinterpret_cast<const char*>(cloud.points_m[i].data()), 3 * sizeof(float));
-    if (!colored) continue;
-    const Bgr& color = cloud.colors[i];
-    const char packed[4] = {static_cast<char>(color.b), static_cast<char>(color.g),
-                            static_cast<char>(color.r), 0};
-    records.append(packed, sizeof(packed));
+    for (int axis = 0; axis < 3; ++axis) append(cloud.points_m[i][axis]);
+    if (!cloud.colors.empty()) append(packed(cloud.colors[i]));
+    if (!cloud.intensities.empty()) append(cloud.intensities[i]);
+    if (!cloud.rings.empty()) append(cloud.rings[i]);
   }
   const std::string number = std::to_string(count);
-  const std::string fields = colored
-                                 ? "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
-                                 : "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
-  write_text(path, "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " +
-                       number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number +
+  write_text(path, "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + pcd_fields(cloud) +
+                       "WIDTH " + number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number +
                        "\nDATA binary\n" + records);
 }
 

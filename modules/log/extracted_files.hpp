@@ -15,7 +15,7 @@ namespace limbcast::logs {
 
 /// The picture's own bytes where it is a JPEG or PNG, else as PNG. `path` without ending.
 void write_picture(const std::string& path, const image_t& image);
-/// Binary PCD of the points that are there, with rgb where the cloud has colours.
+/// Binary PCD of the points that are there, with rgb, intensity and ring where the cloud has them.
 void write_cloud(const std::string& path, const Cloud& cloud);
 /// NAME_gt.json as read_ground_truth reads it.
 void write_truth(const std::string& path, const BodyPoses& truth);

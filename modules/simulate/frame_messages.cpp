@@ -39,8 +39,10 @@ Cloud laser_cloud(const LaserScan& scan, const LaserParams& params, Stamp stamp)
   stamp.depth_noise.constant_m = static_cast<float>(params.range_sigma_m);
   Cloud cloud;
   cloud.stamp = stamp;
-  for (const Eigen::Vector3f& point : scan.points_m) {
-    if (point.allFinite()) cloud.points_m.push_back(point);
+  for (std::size_t i = 0; i < scan.points_m.size(); ++i) {
+    if (!scan.points_m[i].allFinite()) continue;
+    cloud.points_m.push_back(scan.points_m[i]);
+    cloud.intensities.push_back(scan.intensities[i]);
   }
   cloud.width = static_cast<int>(cloud.points_m.size());
   cloud.height = 1;

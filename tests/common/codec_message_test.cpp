@@ -14,6 +14,7 @@
 
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
+#include "common/lcm_io/compression.hpp"
 #include "common/lcm_io/depth_images_codec.hpp"
 #include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/message_error.hpp"
@@ -467,11 +468,26 @@ TEST(CodecRefusals, NameWhatIsWrongWithAListOfPoints) {
   cloud.camera.reset();
   cloud.width = 256;
   cloud.height = 1;
+  cloud.intensities.assign(256, 0.5F);
+  cloud.rings.assign(256, 3);
+  const std::string size = "another size", damaged = "damaged";
   expect_refused<point_cloud_t>(
       to_message(cloud), {{[](auto& m) { m.height = 2; }, "height 1"},
                           {[](auto& m) { m.resolution_m = 0.0; }, "'resolution_m'"},
                           {[](auto& m) { m.color.data.pop_back(); }, "colours of a list"},
-                          {[](auto& m) { m.color.encoding = image_t::PNG; }, "colours of a list"}});
+                          {[](auto& m) { m.color.encoding = image_t::PNG; }, "colours of a list"},
+                          {[](auto& m) { m.intensity_step = 0.0; }, "'intensity_step'"},
+                          {[](auto& m) { m.intensity_step = kInfinity; }, "'intensity_step'"},
+                          {[](auto& m) {
+                             m.intensities = compress({1, 2, 3});
+                           },
+                           size},
+                          {[](auto& m) { m.intensities.pop_back(); }, damaged},
+                          {[](auto& m) {
+                             m.rings = compress({1, 2, 3});
+                           },
+                           size},
+                          {[](auto& m) { m.rings.pop_back(); }, damaged}});
 }
 
 }  // namespace

@@ -122,6 +122,46 @@ TEST(PointCloudCodec, CarriesListsWithColors) {
   EXPECT_EQ(back.colors[1].g, 5);
 }
 
+/// A list of four points with intensities and rings.
+Cloud laser_cloud(const std::vector<float>& intensities) {
+  Cloud cloud;
+  cloud.stamp = test_stamp();
+  cloud.points_m.assign(4, {1.0F, -2.0F, 3.0F});
+  cloud.intensities = intensities;
+  cloud.rings = {0, 127, 40'000, 65'535};
+  cloud.width = 4;
+  cloud.height = 1;
+  return cloud;
+}
+
+TEST(PointCloudCodec, CarriesWholeIntensitiesAndRingsAsTheyAre) {
+  const Cloud cloud = laser_cloud({0.0F, 255.0F, -7.0F, 32'767.0F});
+  const Cloud back = from_message(to_message(cloud));
+  EXPECT_EQ(back.intensities, cloud.intensities);
+  EXPECT_EQ(back.rings, cloud.rings);
+}
+
+TEST(PointCloudCodec, RoundsOtherIntensitiesToAShareOfTheLargest) {
+  for (const float largest : {1.0F, 70'000.0F}) {
+    const Cloud cloud = laser_cloud({0.0F, 0.37F * largest, 0.01F * largest, largest});
+    const Cloud back = from_message(to_message(cloud));
+    ASSERT_EQ(back.intensities.size(), 4U);
+    // Half a step of 32767 that the largest is divided in.
+    const float tolerance = 0.51F / 32'767.0F * largest;
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(back.intensities[i], cloud.intensities[i], tolerance);
+  }
+}
+
+TEST(PointCloudCodec, SendsNothingOfIntensitiesAndRingsThatASensorDoesNotHave) {
+  const point_cloud_t message = to_message(camera_cloud());
+  EXPECT_EQ(message.intensities_size, 0);
+  EXPECT_EQ(message.rings_size, 0);
+  const Cloud back = from_message(message);
+  EXPECT_TRUE(back.intensities.empty());
+  EXPECT_TRUE(back.rings.empty());
+}
+
 TEST(PointCloudCodec, CarriesEmptyAndOnePointClouds) {
   Cloud cloud;
   cloud.stamp = test_stamp();

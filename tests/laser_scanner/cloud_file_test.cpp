@@ -65,7 +65,45 @@ TEST_F(CloudFile, OfPcdIsReadPacked) {
   EXPECT_EQ(read("a.pcd", pcd_header("binary_compressed", 2) + sizes + packed).points, two_points_);
 }
 
-TEST_F(CloudFile, OfKittiIsRead) { EXPECT_EQ(read("a.bin", bytes_of(rows_)).points, two_points_); }
+TEST_F(CloudFile, OfKittiIsReadWithIntensities) {
+  const RawCloud cloud = read("a.bin", bytes_of(rows_));
+  EXPECT_EQ(cloud.points, two_points_);
+  EXPECT_THAT(cloud.intensities, ElementsAre(9.0F, 9.0F));
+  EXPECT_TRUE(cloud.rings.empty());
+}
+
+TEST_F(CloudFile, KeepsIntensitiesAndRingsOfThePointsThatAreThere) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS x y z intensity ring\nSIZE 4 4 4 4 2\nTYPE F F F F U\n"
+      "COUNT 1 1 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n";
+  const RawCloud cloud = read("a.pcd", header + "1 2 3 0.25 7\nnan nan nan 5 8\n4 5 6 nan 65535\n");
+  EXPECT_EQ(cloud.points.size(), 2U);
+  EXPECT_THAT(cloud.intensities, ElementsAre(0.25F, 0.0F));
+  EXPECT_THAT(cloud.rings, ElementsAre(7, 65535));
+}
+
+TEST_F(CloudFile, KeepsIntensitiesAndRingsOfPlyByTheirOtherNames) {
+  const RawCloud cloud =
+      read("a.ply",
+           "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+           "property float z\nproperty float scalar_Intensity\nproperty uchar scalar_ring\n"
+           "end_header\n1 2 3 0.5 12\n");
+  EXPECT_THAT(cloud.intensities, ElementsAre(0.5F));
+  EXPECT_THAT(cloud.rings, ElementsAre(12));
+}
+
+TEST_F(CloudFile, WithRingsThatAreNoneIsNamed) {
+  const auto ring_error = [this](const std::string& ring) {
+    return error("a.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                 "property float z\nproperty float ring\nend_header\n1 2 3 " +
+                     ring + "\n");
+  };
+  EXPECT_THAT(ring_error("-1"), HasSubstr("a.ply: its column 'ring' holds -1"));
+  EXPECT_THAT(ring_error("65536"), HasSubstr("no number of a ring"));
+  EXPECT_THAT(ring_error("2.5"), HasSubstr("no number of a ring"));
+  EXPECT_THAT(ring_error("nan"), HasSubstr("no number of a ring"));
+}
 
 TEST_F(CloudFile, OfPlyIsReadWithColors) {
   const std::string properties =

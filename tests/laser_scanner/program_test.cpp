@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limbcast/point_cloud_t.hpp>
@@ -9,6 +10,7 @@
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
+#include "tests/laser_scanner/velodyne_packets.hpp"
 #include "tests/support/child_process.hpp"
 
 namespace limbcast::test {
@@ -25,8 +27,9 @@ class LaserScannerProgram : public ::testing::Test {
     words.insert(words.end(), options.begin(), options.end());
     return run(words);
   }
-  Cloud first_cloud() const {
-    lcm_io::LogReader log(log_);
+  Cloud first_cloud() const { return first_cloud_in(log_); }
+  static Cloud first_cloud_in(const std::string& path) {
+    lcm_io::LogReader log(path);
     return lcm_io::from_message(lcm_io::decode<point_cloud_t>(log.next()->data));
   }
   std::string folder_ = temporary_folder("clouds");
@@ -75,6 +78,36 @@ TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   write_floor(folder_ + "/a.bin");
   EXPECT_THAT(error({"--source", folder_, "--axes", "x,y"}), HasSubstr("'axes' is 'x,y'"));
   EXPECT_THAT(error({"--source", folder_, "--loop"}), HasSubstr("never end"));
+}
+
+TEST_F(LaserScannerProgram, SendsIntensitiesAndRingsOfAVelodyneAndReplayKeepsThem) {
+  std::ofstream(folder_ + "/a.pcap", std::ios::binary)
+      << laser_scanner::pcap_of(laser_scanner::vlp16_turns(2, 4.0));
+  ASSERT_EQ(write_log({"--source", folder_ + "/a.pcap"}).exit_code, 0);
+  const std::string replayed = folder_ + "/out.log";
+  ASSERT_EQ(run({program("limbcast-replay"), log_, replayed}).exit_code, 0);
+  for (const std::string& path : {log_, replayed}) {
+    const Cloud cloud = first_cloud_in(path);
+    ASSERT_EQ(cloud.intensities.size(), cloud.points_m.size());
+    ASSERT_EQ(cloud.rings.size(), cloud.points_m.size());
+    EXPECT_EQ(cloud.intensities[1], 101.0F);
+    EXPECT_EQ(cloud.rings[1], 8);
+  }
+}
+
+TEST_F(LaserScannerProgram, SendsIntensitiesOfARecordedScan) {
+  const std::string data = LIMBCAST_DATA_DIR;
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
+  ASSERT_EQ(write_log({"--source", data + "/clouds/ouster_os0_128_cyclist.pcd", "--axes=-y,-z,x"})
+                .exit_code,
+            0);
+  const Cloud cloud = first_cloud();
+  EXPECT_TRUE(cloud.rings.empty());
+  ASSERT_EQ(cloud.intensities.size(), cloud.points_m.size());
+  const auto [lowest, highest] =
+      std::minmax_element(cloud.intensities.begin(), cloud.intensities.end());
+  EXPECT_GE(*lowest, 0.0F);
+  EXPECT_GT(*highest, 10.0F * (*lowest + 1.0F));
 }
 
 TEST_F(LaserScannerProgram, WritesALogOfTheScans) {

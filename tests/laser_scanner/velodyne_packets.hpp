@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "modules/laser_scanner/velodyne.hpp"
@@ -9,7 +10,7 @@
 namespace limbcast::laser_scanner {
 
 /// A VLP-16 packet whose 12 blocks start at this azimuth, 0.4 degrees each, all returns at this
-/// distance.
+/// distance; the intensity of a return is 100 plus its number in the block.
 inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distance_m,
                                               std::uint8_t model = 0x22) {
   std::vector<std::uint8_t> packet;
@@ -22,7 +23,7 @@ inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distanc
     number_16(static_cast<int>(std::lround(100.0 * azimuth_deg + 40.0 * block)) % 36000);
     for (int i = 0; i < 32; ++i) {
       number_16(static_cast<int>(std::lround(distance_m / 0.002)));
-      packet.push_back(100);
+      packet.push_back(static_cast<std::uint8_t>(100 + i));
     }
   }
   packet.insert(packet.end(), {0, 0, 0, 0, 0x37, model});
@@ -37,6 +38,30 @@ inline std::vector<std::vector<std::uint8_t>> vlp16_turns(int turns, double dist
     packets.push_back(vlp16_packet(std::fmod(4.8 * i, 360.0), distance_m));
   }
   return packets;
+}
+
+/// Begins a pcap file whose times are in microseconds.
+inline constexpr std::uint32_t kPcapMicroseconds = 0xA1B2C3D4;
+
+/// A pcap file with Ethernet frames of one UDP packet each, 1 ms apart from 1000 s on.
+inline std::string pcap_of(const std::vector<std::vector<std::uint8_t>>& payloads,
+                           std::uint32_t magic = kPcapMicroseconds) {
+  std::string file;
+  const auto number_32 = [&file](std::uint32_t value) {
+    file.append(reinterpret_cast<const char*>(&value), 4);
+  };
+  for (const std::uint32_t value : {magic, 0x00040002U, 0U, 0U, 65535U, 1U}) number_32(value);
+  for (std::size_t i = 0; i < payloads.size(); ++i) {
+    std::string frame(14, '\0');                                                     // Ethernet
+    frame += std::string("\x45") + std::string(8, 0) + '\x11' + std::string(10, 0);  // IPv4, UDP
+    frame += std::string(8, '\0');                                                   // UDP
+    frame.append(payloads[i].begin(), payloads[i].end());
+    for (const std::size_t value : {std::size_t{1000}, 1000 * i, frame.size(), frame.size()}) {
+      number_32(static_cast<std::uint32_t>(value));
+    }
+    file += frame;
+  }
+  return file;
 }
 
 }  // namespace limbcast::laser_scanner

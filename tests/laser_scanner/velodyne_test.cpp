@@ -63,8 +63,38 @@ TEST(Velodyne, PlacesReturnsByAzimuthElevationAndDistance) {
   EXPECT_NEAR(later.x(), low.y() * std::tan(0.2 * M_PI / 180.0), 1e-4);
 }
 
+TEST(Velodyne, TellsIntensityAndRingOfEachReturn) {
+  const Sweep sweep = sweeps_of(vlp16_turns(2, 4.0)).at(0);
+  ASSERT_EQ(sweep.intensities.size(), kReturnsOfATurn);
+  ASSERT_EQ(sweep.rings.size(), kReturnsOfATurn);
+  // Two firings of 16 lasers: the first looks lowest, the second is the ninth from below, the last
+  // the highest.
+  for (const std::size_t firing : {0U, 16U}) {
+    EXPECT_EQ(sweep.rings[firing], 0);
+    EXPECT_EQ(sweep.rings[firing + 1], 8);
+    EXPECT_EQ(sweep.rings[firing + 15], 15);
+    EXPECT_EQ(sweep.intensities[firing + 1], 101.0F + static_cast<float>(firing));
+  }
+}
+
+TEST(Velodyne, NumbersTheRingsOfAnHdl32FromTheLowest) {
+  VelodyneDecoder decoder(VelodyneModel::kHdl32);
+  std::optional<Sweep> sweep;
+  for (const auto& packet : vlp16_turns(2, 4.0)) {
+    if (auto whole = decoder.add(packet, 0)) sweep = std::move(whole);
+  }
+  ASSERT_TRUE(sweep);
+  // -30.67, -9.33 and 10.67 degrees.
+  EXPECT_EQ(sweep->rings[0], 0);
+  EXPECT_EQ(sweep->rings[1], 16);
+  EXPECT_EQ(sweep->rings[31], 31);
+}
+
 TEST(Velodyne, LeavesOutLasersWithoutReturn) {
-  EXPECT_TRUE(sweeps_of(vlp16_turns(2, 0.0)).at(0).points_m.empty());
+  const Sweep sweep = sweeps_of(vlp16_turns(2, 0.0)).at(0);
+  EXPECT_TRUE(sweep.points_m.empty());
+  EXPECT_TRUE(sweep.intensities.empty());
+  EXPECT_TRUE(sweep.rings.empty());
 }
 
 TEST(Velodyne, CountsPacketsThatAreNone) {
@@ -78,26 +108,6 @@ TEST(Velodyne, KnowsItsModel) {
   EXPECT_EQ(velodyne_model(vlp16_packet(0.0, 1.0, 0x22)), VelodyneModel::kVlp16);
   EXPECT_EQ(velodyne_model(vlp16_packet(0.0, 1.0, 0x21)), VelodyneModel::kHdl32);
   EXPECT_FALSE(velodyne_model(vlp16_packet(0.0, 1.0, 0x99)));
-}
-
-/// A pcap file with Ethernet frames of one UDP packet each, 1 ms apart from 1000 s on.
-std::string pcap_of(const std::vector<std::vector<std::uint8_t>>& payloads, std::uint32_t magic) {
-  std::string file;
-  const auto number_32 = [&file](std::uint32_t value) {
-    file.append(reinterpret_cast<const char*>(&value), 4);
-  };
-  for (const std::uint32_t value : {magic, 0x00040002U, 0U, 0U, 65535U, 1U}) number_32(value);
-  for (std::size_t i = 0; i < payloads.size(); ++i) {
-    std::string frame(14, '\0');                                                     // Ethernet
-    frame += std::string("\x45") + std::string(8, 0) + '\x11' + std::string(10, 0);  // IPv4, UDP
-    frame += std::string(8, '\0');                                                   // UDP
-    frame.append(payloads[i].begin(), payloads[i].end());
-    for (const std::size_t value : {std::size_t{1000}, 1000 * i, frame.size(), frame.size()}) {
-      number_32(static_cast<std::uint32_t>(value));
-    }
-    file += frame;
-  }
-  return file;
 }
 
 class Recorded : public ::testing::Test {
@@ -114,7 +124,7 @@ class Recorded : public ::testing::Test {
 };
 
 TEST_F(Recorded, PcapGivesTurnsInOurFrame) {
-  const std::string path = folder_.write("a.pcap", pcap_of(vlp16_turns(3, 4.0), 0xA1B2C3D4));
+  const std::string path = folder_.write("a.pcap", pcap_of(vlp16_turns(3, 4.0)));
   const auto source = open_cloud_source(params(path));
 
   const auto frame = source->next();
@@ -149,13 +159,12 @@ TEST_F(Recorded, PcapThatCannotBeUsedIsNamed) {
   };
   EXPECT_THAT(error("short"), HasSubstr("a.pcap: cannot be read as a pcap file"));
   EXPECT_THAT(error(pcap_of({}, 0x0A0D0D0A)), HasSubstr("is no pcap file"));
-  EXPECT_THAT(error(pcap_of({}, 0xA1B2C3D4)), HasSubstr("holds no whole turn"));
-  EXPECT_THAT(error(pcap_of({vlp16_packet(0.0, 1.0, 0x99)}, 0xA1B2C3D4)),
-              HasSubstr("give --velodyne-model"));
+  EXPECT_THAT(error(pcap_of({})), HasSubstr("holds no whole turn"));
+  EXPECT_THAT(error(pcap_of({vlp16_packet(0.0, 1.0, 0x99)})), HasSubstr("give --velodyne-model"));
 }
 
 TEST_F(Recorded, FolderGivesCloudsWithTimesGravityAndTruth) {
-  const std::vector<float> row = {5.0F, -1.0F, 0.5F, 0.0F, 90.0F, 0.0F, 0.0F, 0.0F};
+  const std::vector<float> row = {5.0F, -1.0F, 0.5F, 0.25F, 90.0F, 0.0F, 0.0F, 0.75F};
   std::string bytes(row.size() * sizeof(float), '\0');
   std::memcpy(bytes.data(), row.data(), bytes.size());
   folder_.write("a.bin", bytes);
@@ -172,6 +181,7 @@ TEST_F(Recorded, FolderGivesCloudsWithTimesGravityAndTruth) {
   // KITTI: 5 m ahead, 1 m to the right, 0.5 m up; the point at 90 m is beyond the far limit.
   ASSERT_EQ(frame->cloud.points.size(), 1U);
   EXPECT_EQ(frame->cloud.points[0], Eigen::Vector3f(1.0F, -0.5F, 5.0F));
+  EXPECT_EQ(frame->cloud.intensities, std::vector<float>{0.25F});
   EXPECT_TRUE(source->ended());
 }
 

@@ -66,6 +66,8 @@ TEST_F(Extract, OfCloudsWritesFilesThatTheLaserScannerReads) {
   cloud.height = 1;
   cloud.points_m = {{1.0F, 2.0F, 3.0F}, {-1.0F, 0.5F, 4.0F}, {0.0F, 0.0F, 2.0F}};
   cloud.colors = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  cloud.intensities = {12.0F, 0.0F, 255.0F};
+  cloud.rings = {0, 31, 300};
   {
     lcm_io::LogWriter log(log_);
     log.write(kBegin, "POINT_CLOUD", lcm_io::to_message(cloud));
@@ -81,6 +83,10 @@ TEST_F(Extract, OfCloudsWritesFilesThatTheLaserScannerReads) {
   const Cloud read = lcm_io::from_message(lcm_io::decode<point_cloud_t>(events[0].data));
   ASSERT_EQ(read.points_m.size(), 3U);
   EXPECT_EQ(read.stamp.utime, kBegin);
+  EXPECT_EQ(read.colors[1].b, 4);
+  EXPECT_EQ(read.colors[1].r, 6);
+  EXPECT_EQ(read.intensities, cloud.intensities);
+  EXPECT_EQ(read.rings, cloud.rings);
 }
 
 TEST_F(Extract, OfPosesWritesALineAFrame) {

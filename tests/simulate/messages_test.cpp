@@ -81,6 +81,7 @@ TEST(FrameMessages, ALaserFrameIsAListOfFinitePoints) {
   const Cloud cloud = lcm_io::from_message(lcm_io::decode<point_cloud_t>(events[0].data));
   EXPECT_FALSE(cloud.organized());
   EXPECT_GT(cloud.points_m.size(), 1000U);
+  EXPECT_EQ(cloud.intensities.size(), cloud.points_m.size());
 }
 
 TEST(FrameMessages, TheTruthIsThatOfTheFolder) {
