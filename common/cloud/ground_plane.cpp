@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "common/formatted.hpp"
+
 namespace limbcast {
 namespace {
 
@@ -142,6 +144,17 @@ std::optional<Refined> refine(const Sample& sample, const Plane& plane, float in
                  std::sqrt(std::max(0.0, solver.eigenvalues()[1]))};
 }
 
+/// 0.5 where a measured figure only just reaches its limit, towards 1 the farther it lies beyond.
+double clearness(double measured, double limit) { return measured / (measured + limit); }
+
+double confidence_of(const Support& support, double inlier_share, double extent_m,
+                     const GroundPlaneParams& params) {
+  const double below_share = static_cast<double>(support.below) / support.inliers;
+  return std::min({clearness(inlier_share, params.min_inlier_share),
+                   clearness(extent_m, params.min_extent_m),
+                   clearness(params.max_below_share, below_share)});
+}
+
 struct Ground {
   GroundPlane plane;
   Sample sample;
@@ -167,7 +180,8 @@ std::optional<Ground> find(const Cloud& cloud, const Eigen::Vector3f& down,
       extent_m < params.min_extent_m || plane->height_m < params.min_height_m ||
       plane->down.dot(down) < std::cos(params.max_tilt_rad))
     return std::nullopt;
-  return Ground{{plane->down, plane->height_m, share}, std::move(sample)};
+  const auto confidence = static_cast<float>(confidence_of(support, share, extent_m, params));
+  return Ground{{plane->down, plane->height_m, share, confidence}, std::move(sample)};
 }
 
 /// Median of the ground's points' distances along `down`: where a told gravity is off by half a
@@ -195,16 +209,16 @@ std::optional<GroundPlane> find_ground_plane(const Cloud& cloud, const Eigen::Ve
   return ground->plane;
 }
 
-void complete_gravity(Cloud& cloud, const GroundPlaneParams& params) {
+std::optional<GroundPlane> complete_gravity(Cloud& cloud, const GroundPlaneParams& params) {
   // A told direction is good to about half a degree, a level sensor's to nothing.
   constexpr double kToldTiltRad = 0.06;
   Gravity& gravity = cloud.stamp.gravity;
   const bool told = gravity.source != GravitySource::kLevel;
-  if (told && gravity.sensor_height_m) return;
+  if (told && gravity.sensor_height_m) return std::nullopt;
   GroundPlaneParams search_params = params;
   if (told) search_params.max_tilt_rad = kToldTiltRad;
   const auto ground = find(cloud, gravity.down, search_params);
-  if (!ground) return;
+  if (!ground) return std::nullopt;
   if (!told) {
     gravity.down = ground->plane.down;
     gravity.source = GravitySource::kGroundPlane;
@@ -212,6 +226,30 @@ void complete_gravity(Cloud& cloud, const GroundPlaneParams& params) {
   if (!gravity.sensor_height_m)
     gravity.sensor_height_m =
         height_along(*ground, gravity.down, static_cast<float>(params.inlier_distance_m));
+  return ground->plane;
+}
+
+std::string describe(const Gravity& gravity, const std::optional<GroundPlane>& ground) {
+  std::string text = "gravity ";
+  switch (gravity.source) {
+    case GravitySource::kRecording:
+      text += "from the recording";
+      break;
+    case GravitySource::kOption:
+      text += "from the option";
+      break;
+    case GravitySource::kGroundPlane:
+      text += "from the ground plane";
+      break;
+    case GravitySource::kLevel:
+      text += "not told: the sensor is taken to be level";
+      break;
+  }
+  if (!ground) return text;
+  return text +
+         formatted("; ground %.2f m below the sensor, confidence %.2f, %.0f %% of the points",
+                   static_cast<double>(ground->height_m), static_cast<double>(ground->confidence),
+                   100.0 * static_cast<double>(ground->inlier_share));
 }
 
 }  // namespace limbcast

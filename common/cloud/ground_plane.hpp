@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 
 #include "common/cloud/cloud.hpp"
 
@@ -36,6 +37,9 @@ struct GroundPlane {
   Eigen::Vector3f down;       ///< unit normal of the ground, away from the sensor
   float height_m = 0.0F;      ///< of the sensor's origin over the plane
   float inlier_share = 0.0F;  ///< of the cloud's points
+  /// How clearly it is the ground, 0.5 to 1: the least of three figures, which are 0.5 where the
+  /// plane only just passes: its share of the points, its extent, and how little lies below it.
+  float confidence = 0.0F;
 };
 
 /// The plane that people stand on: below the sensor, within `max_tilt_rad` of `down`, with nothing
@@ -48,7 +52,11 @@ std::optional<GroundPlane> find_ground_plane(const Cloud& cloud, const Eigen::Ve
 ///
 /// Direction of gravity: stays where anybody told it; where nobody did (kLevel), the ground's
 /// normal is taken (kGroundPlane), or, without believable ground, it stays level. Height of the
-/// sensor: where not known yet, the height along gravity over the ground's points.
-void complete_gravity(Cloud& cloud, const GroundPlaneParams& params = {});
+/// sensor: where not known yet, the height along gravity over the ground's points. Returns the
+/// ground that told either.
+std::optional<GroundPlane> complete_gravity(Cloud& cloud, const GroundPlaneParams& params = {});
+
+/// For a module's status: who told gravity, and how sure the ground is that told it or the height.
+std::string describe(const Gravity& gravity, const std::optional<GroundPlane>& ground);
 
 }  // namespace limbcast

@@ -30,7 +30,8 @@ class FrameSource {
   virtual bool ended() const = 0;
   /// Live: frames come when the sensor gives them. Else: as fast as they are asked for.
   virtual bool live() const = 0;
-  virtual SourceStatistics statistics() const { return {}; }
+  /// Nothing where there is nothing to count.
+  virtual std::optional<SourceStatistics> statistics() const { return std::nullopt; }
   /// For the log at start: what it is, how many frames.
   virtual std::string description() const = 0;
 };

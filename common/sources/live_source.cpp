@@ -37,9 +37,9 @@ std::optional<FramePair> SideBySideSource::next() {
   return make_frame(format_, {newest.utime, first, second}, sequence_++, name_);
 }
 
-SourceStatistics SideBySideSource::statistics() const {
+std::optional<SourceStatistics> SideBySideSource::statistics() const {
   const CaptureStatistics capture = capture_.statistics();
-  return {capture.dropped + replaced_, 0, capture.reopened, capture.problem};
+  return SourceStatistics{capture.dropped + replaced_, 0, capture.reopened, capture.problem};
 }
 
 TwoCameraSource::TwoCameraSource(OpenReader open_first, const LiveCaptureParams& first_params,
@@ -63,11 +63,12 @@ std::optional<FramePair> TwoCameraSource::next() {
   return make_frame(format_, *newest, sequence_++, names_);
 }
 
-SourceStatistics TwoCameraSource::statistics() const {
+std::optional<SourceStatistics> TwoCameraSource::statistics() const {
   const CaptureStatistics first = first_.statistics();
   const CaptureStatistics second = second_.statistics();
-  return {first.dropped + second.dropped + replaced_, matcher_.unpaired(),
-          first.reopened + second.reopened, first.problem.empty() ? second.problem : first.problem};
+  return SourceStatistics{first.dropped + second.dropped + replaced_, matcher_.unpaired(),
+                          first.reopened + second.reopened,
+                          first.problem.empty() ? second.problem : first.problem};
 }
 
 }  // namespace limbcast

@@ -13,7 +13,7 @@ class SideBySideSource : public PairSource {
   std::optional<FramePair> next() override;
   bool ended() const override { return capture_.ended(); }
   bool live() const override { return true; }
-  SourceStatistics statistics() const override;
+  std::optional<SourceStatistics> statistics() const override;
   std::string description() const override { return name_ + " (live, side by side)"; }
 
  private:
@@ -34,7 +34,7 @@ class TwoCameraSource : public PairSource {
   std::optional<FramePair> next() override;
   bool ended() const override { return first_.ended() || second_.ended(); }
   bool live() const override { return true; }
-  SourceStatistics statistics() const override;
+  std::optional<SourceStatistics> statistics() const override;
   std::string description() const override { return names_ + " (live, paired by time)"; }
 
  private:

@@ -53,14 +53,14 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
   Pacer pacer(rate_hz);
   while (!source.ended() && !lcm_io::stop_requested()) {
     std::optional<Frame> frame = source.next();
-    if (source.live()) show_statistics(source.statistics(), module);
+    show_statistics(source.statistics(), module);
     if (frame && !source.live()) {
       wait_until(pacer.due(frame->stamp.utime, Pacer::Clock::now()), module);
     }
     if (frame && !lcm_io::stop_requested()) sender.send(outlet, std::move(*frame));
     module.spin_once();
   }
-  if (source.live()) show_statistics(source.statistics(), module);
+  show_statistics(source.statistics(), module);
 }
 
 template <class Frame>
@@ -70,8 +70,8 @@ void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std
   while (!source.ended() && !lcm_io::stop_requested()) {
     if (std::optional<Frame> frame = source.next()) sender.send(outlet, std::move(*frame));
   }
-  const std::string problem = source.statistics().problem;
-  if (!problem.empty()) outlet.report_problem(problem);
+  const std::optional<SourceStatistics> statistics = source.statistics();
+  if (statistics && !statistics->problem.empty()) outlet.report_problem(statistics->problem);
   log.close();
 }
 

@@ -28,11 +28,12 @@ std::string describe(const PairSource& source, const SourceOptions& options) {
 
 }  // namespace
 
-void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module) {
-  module.set_note(std::to_string(statistics.dropped) + " dropped, " +
-                  std::to_string(statistics.unpaired) + " unpaired, " +
-                  std::to_string(statistics.reopened) + " reopened");
-  if (!statistics.problem.empty()) module.report_problem(statistics.problem);
+void show_statistics(const std::optional<SourceStatistics>& statistics, lcm_io::Module& module) {
+  if (!statistics) return;
+  module.set_note(std::to_string(statistics->dropped) + " dropped, " +
+                  std::to_string(statistics->unpaired) + " unpaired, " +
+                  std::to_string(statistics->reopened) + " reopened");
+  if (!statistics->problem.empty()) module.report_problem(statistics->problem);
 }
 
 void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
@@ -138,6 +139,10 @@ void Outlet::report_problem(const std::string& text) {
   } else {
     config::log(config::LogLevel::kError, text);
   }
+}
+
+void Outlet::set_note(const std::string& text) {
+  if (module_ != nullptr) module_->set_note(text);
 }
 
 void run_source(const std::string& module_name, const SourceProcessOptions& options,

@@ -69,6 +69,8 @@ class Outlet {
   }
   /// A problem that the program survives: logged, and in the status.
   void report_problem(const std::string& text);
+  /// What a user wants to know besides: in the status, where there is one.
+  void set_note(const std::string& text);
   /// The clock of what is sent once a second: the log's, or this host's [us].
   std::int64_t now(std::int64_t frame_utime) const {
     return log_ != nullptr ? frame_utime : lcm_io::utime_now();
@@ -82,8 +84,8 @@ class Outlet {
 /// Returns when `due` has come or the program is told to end; the module's status goes on.
 void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module);
 
-/// Puts what a live source counts into the status.
-void show_statistics(const SourceStatistics& statistics, lcm_io::Module& module);
+/// Puts what a source counts, if it counts anything, into the status.
+void show_statistics(const std::optional<SourceStatistics>& statistics, lcm_io::Module& module);
 
 /// Sends one frame with what belongs to it.
 using SendFrame = std::function<void(Outlet&, const FramePair&)>;

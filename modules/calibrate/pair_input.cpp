@@ -83,7 +83,7 @@ void visit_stream(const SourceOptions& options, const Take& take) {
   while (!source->ended()) {
     check_not_told_to_end();
     const std::optional<FramePair> frame = source->next();
-    problems.tell(source->statistics().problem);
+    if (const auto statistics = source->statistics()) problems.tell(statistics->problem);
     if (!frame) continue;
     const std::string name = "frame " + std::to_string(frame->stamp.sequence);
     if (!take({name, grey(frame->first, name), grey(frame->second, name), frame->stamp.utime}))

@@ -1,5 +1,7 @@
 #include <cmath>
 #include <limbcast/point_cloud_t.hpp>
+#include <optional>
+#include <string>
 
 #include "common/cloud/ground_plane.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
@@ -52,9 +54,23 @@ Cloud make_cloud(CloudFrame& frame, const Options& options) {
   cloud.rings = std::move(frame.cloud.rings);
   cloud.width = static_cast<int>(cloud.points_m.size());
   cloud.height = 1;
-  if (options.ground_plane) complete_gravity(cloud);
   return cloud;
 }
+
+/// Tells who told gravity: always in the status, in the program's log when it is another than
+/// before.
+class GravityReport {
+ public:
+  void tell(const Gravity& gravity, const std::optional<GroundPlane>& ground, Outlet& outlet) {
+    const std::string text = describe(gravity, ground);
+    outlet.set_note(text);
+    if (last_source_ != gravity.source) config::log(config::LogLevel::kInfo, text);
+    last_source_ = gravity.source;
+  }
+
+ private:
+  std::optional<GravitySource> last_source_;
+};
 
 void run(Options& options, const config::CommonOptions& common) {
   if (options.source.source.empty()) {
@@ -67,8 +83,12 @@ void run(Options& options, const config::CommonOptions& common) {
                               std::llround(1e6 * options.process.start_time_s)};
   options.source.sensor = options.process.sensor;
   options.source.frame = options.process.sensor + "/scan";
+  GravityReport gravity_report;
   FrameSender<CloudFrame> sender(options.process, {}, [&](Outlet& outlet, CloudFrame& frame) {
-    outlet.send_frame(options.cloud_channel, lcm_io::to_message(make_cloud(frame, options)));
+    Cloud cloud = make_cloud(frame, options);
+    const auto ground = options.ground_plane ? complete_gravity(cloud) : std::nullopt;
+    gravity_report.tell(cloud.stamp.gravity, ground, outlet);
+    outlet.send_frame(options.cloud_channel, lcm_io::to_message(cloud));
   });
   const std::unique_ptr<CloudSource> source = open_cloud_source(options.source);
   run_frames("laser_scanner", options.process, common, *source, sender, source->description());

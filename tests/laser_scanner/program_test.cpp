@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <limbcast/module_status_t.hpp>
 #include <limbcast/point_cloud_t.hpp>
 #include <random>
 
+#include "common/lcm_io/bus.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
@@ -16,6 +19,7 @@
 namespace limbcast::test {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 constexpr int kWrongInput = 2;
@@ -59,6 +63,23 @@ TEST_F(LaserScannerProgram, FindsGravityInTheGround) {
   EXPECT_EQ(cloud.stamp.gravity.source, GravitySource::kGroundPlane);
   EXPECT_NEAR(cloud.stamp.gravity.down.y(), 1.0F, 1e-3F);
   EXPECT_NEAR(cloud.stamp.gravity.sensor_height_m.value(), 1.2F, 0.01F);
+}
+
+TEST_F(LaserScannerProgram, SaysInItsStatusWhoToldGravityAndHowSureTheGroundIs) {
+  write_floor(folder_ + "/a.bin");
+  const std::string url = private_lcm_url();
+  lcm_io::Bus bus(url);
+  module_status_t status{};
+  bus.subscribe<module_status_t>("MODULE_STATUS", lcm_io::Keep::kAll,
+                                 [&status](const module_status_t& message) { status = message; });
+  ChildProcess scanner(
+      {program("limbcast-laser-scanner"), "--source", folder_, "--loop", "--lcm-url", url},
+      folder_ + "/output.txt");
+  while (status.num_published == 0 && scanner.running()) bus.handle(std::chrono::milliseconds(50));
+  EXPECT_THAT(status.note,
+              ContainsRegex("gravity from the ground plane; ground 1.20 m below the sensor, "
+                            "confidence (0.[89][0-9]|1.00), 100 % of the points"))
+      << scanner.output();
 }
 
 TEST_F(LaserScannerProgram, BelievesTheOptionOverTheGround) {

@@ -1,11 +1,15 @@
 #include "common/cloud/ground_plane.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 namespace limbcast {
 namespace {
+
+using ::testing::MatchesRegex;
+using ::testing::StartsWith;
 
 /// What a camera at `height_m`, pitched down by `pitch_rad`, sees of a floor and a wall 5 m away;
 /// with a table of 0.7 m if asked.
@@ -54,6 +58,35 @@ TEST(CompleteGravity, TakesTheFloorWhereNobodyToldGravity) {
   EXPECT_NEAR(cloud.stamp.gravity.down.z(), std::sin(0.3F), 0.003F);
   ASSERT_TRUE(cloud.stamp.gravity.sensor_height_m);
   EXPECT_NEAR(*cloud.stamp.gravity.sensor_height_m, 1.1F, 0.01F);
+}
+
+TEST(GroundPlane, IsSurerTheMoreIsSeenOfIt) {
+  const Cloud cloud = room(1.1, 0.3);
+  const auto ground = find_ground_plane(cloud, {0.0F, 1.0F, 0.0F});
+  ASSERT_TRUE(ground);
+  EXPECT_GT(ground->confidence, 0.8F);
+  EXPECT_LE(ground->confidence, 1.0F);
+  // The same plane where just its share of the points is asked for only just passes.
+  GroundPlaneParams only_just;
+  only_just.min_inlier_share = ground->inlier_share;
+  const auto barely = find_ground_plane(cloud, {0.0F, 1.0F, 0.0F}, only_just);
+  ASSERT_TRUE(barely);
+  EXPECT_NEAR(barely->confidence, 0.5F, 1e-3F);
+}
+
+TEST(DescribeGravity, SaysWhoToldItAndHowSureTheGroundIs) {
+  Cloud cloud = room(1.1, 0.3);
+  const auto ground = complete_gravity(cloud);
+  ASSERT_TRUE(ground);
+  EXPECT_THAT(describe(cloud.stamp.gravity, ground),
+              MatchesRegex("gravity from the ground plane; ground 1\\.10 m below the sensor, "
+                           "confidence 0\\.[5-9][0-9], [0-9]+ % of the points"));
+  Gravity gravity;
+  EXPECT_EQ(describe(gravity, std::nullopt), "gravity not told: the sensor is taken to be level");
+  gravity.source = GravitySource::kRecording;
+  EXPECT_EQ(describe(gravity, std::nullopt), "gravity from the recording");
+  gravity.source = GravitySource::kOption;
+  EXPECT_THAT(describe(gravity, ground), StartsWith("gravity from the option; ground 1.10 m"));
 }
 
 TEST(CompleteGravity, KeepsToldGravityAndAddsTheHeight) {

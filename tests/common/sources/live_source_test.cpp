@@ -179,7 +179,7 @@ TEST_F(TwoCameras, HaveFramesWithoutPartnerCounted) {
   right_.push(frame_at(101'000));
   TwoCameraSource source = open();
   ASSERT_TRUE(wait_for_frame(source));
-  EXPECT_EQ(source.statistics().unpaired, 1);
+  EXPECT_EQ(source.statistics()->unpaired, 1);
 }
 
 TEST_F(TwoCameras, OfDifferentSizeAreRefused) {
@@ -194,7 +194,7 @@ TEST_F(TwoCameras, EndWhereOneEnds) {
   right_.end();
   TwoCameraSource source = open();
   EXPECT_FALSE(wait_for_frame(source));
-  EXPECT_THAT(source.statistics().problem, HasSubstr("right: gives no frames any more"));
+  EXPECT_THAT(source.statistics()->problem, HasSubstr("right: gives no frames any more"));
 }
 
 TEST(Mounting, OfTheOptionWinsOverRecordingOverCalibration) {
