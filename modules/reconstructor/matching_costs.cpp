@@ -24,9 +24,31 @@ inline Byte count_in_halves(Byte bits) {
   return static_cast<Byte>((pairs & 0x33) + ((pairs >> 2) & 0x33));
 }
 
-LIMBCAST_SIMD void count_differing_bits(const PlaneRows& left, const PlaneRows& right_mirrored,
-                                        int width, const Byte* least, const Byte* even_least,
-                                        int num_registers, Byte* __restrict costs) {
+/// Set bits of three bytes.
+struct Adder {
+  [[gnu::always_inline]] static Byte count(Byte x0, Byte x1, Byte x2) {
+    // A full adder for each bit: three bits become a sum and a carry of twice the weight.
+    const Byte either = x0 ^ x1;
+    const Byte sum = count_in_halves(static_cast<Byte>(either ^ x2));
+    const Byte carry = count_in_halves(static_cast<Byte>((x0 & x1) | (either & x2)));
+    const auto halves = static_cast<Byte>(sum + carry + carry);
+    return static_cast<Byte>((halves & 0x0f) + (halves >> 4));
+  }
+};
+
+/// The same where the processor counts a vector's bits.
+struct BitCounter {
+  [[gnu::always_inline]] static Byte count(Byte x0, Byte x1, Byte x2) {
+    return static_cast<Byte>(__builtin_popcount(x0) + __builtin_popcount(x1) +
+                             __builtin_popcount(x2));
+  }
+};
+
+template <class Counter>
+[[gnu::always_inline]] inline void count_differing_bits(const PlaneRows& left,
+                                                        const PlaneRows& right_mirrored, int width,
+                                                        const Byte* least, const Byte* even_least,
+                                                        int num_registers, Byte* __restrict costs) {
   const int size = num_registers * kCostsInARegister;  // the compiler sees a loop without a rest
   for (int u = 0; u < width; ++u, costs += size) {
     const Byte l0 = left[0][u], l1 = left[1][u], l2 = left[2][u];
@@ -37,14 +59,23 @@ LIMBCAST_SIMD void count_differing_bits(const PlaneRows& left, const PlaneRows& 
     const Byte* __restrict r2 = right_mirrored[2] + match;
     for (int d = 0; d < size; ++d) {
       const Byte x0 = l0 ^ r0[d], x1 = l1 ^ r1[d], x2 = l2 ^ r2[d];
-      // A full adder for each bit: three bits become a sum and a carry of twice the weight.
-      const Byte either = x0 ^ x1;
-      const Byte sum = count_in_halves(static_cast<Byte>(either ^ x2));
-      const Byte carry = count_in_halves(static_cast<Byte>((x0 & x1) | (either & x2)));
-      const auto halves = static_cast<Byte>(sum + carry + carry);
-      costs[d] = std::max(static_cast<Byte>((halves & 0x0f) + (halves >> 4)), least_here[d]);
+      costs[d] = std::max(Counter::count(x0, x1, x2), least_here[d]);
     }
   }
+}
+
+LIMBCAST_SIMD void count_by_adding(const PlaneRows& left, const PlaneRows& right_mirrored,
+                                   int width, const Byte* least, const Byte* even_least,
+                                   int num_registers, Byte* costs) {
+  count_differing_bits<Adder>(left, right_mirrored, width, least, even_least, num_registers, costs);
+}
+
+LIMBCAST_BIT_COUNTING_SIMD void count_by_instruction(const PlaneRows& left,
+                                                     const PlaneRows& right_mirrored, int width,
+                                                     const Byte* least, const Byte* even_least,
+                                                     int num_registers, Byte* costs) {
+  count_differing_bits<BitCounter>(left, right_mirrored, width, least, even_least, num_registers,
+                                   costs);
 }
 
 }  // namespace
@@ -65,8 +96,9 @@ MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int 
 }
 
 void MatchingCosts::compute_row(int v, Byte* costs) const {
-  count_differing_bits(rows_of(left_, v), rows_of(right_mirrored_, v), left_.planes[0].cols,
-                       least_.data(), even_least_.data(), size() / kCostsInARegister, costs);
+  static const auto count = counts_bits_of_vectors() ? count_by_instruction : count_by_adding;
+  count(rows_of(left_, v), rows_of(right_mirrored_, v), left_.planes[0].cols, least_.data(),
+        even_least_.data(), size() / kCostsInARegister, costs);
 }
 
 }  // namespace limbcast::reconstructor

@@ -3,8 +3,26 @@
 /// Before a function whose loops the compiler is to vectorise: on x86-64 also builds it for AVX2
 /// and takes that one at run time where the processor has it. Elsewhere the baseline's vectors
 /// (arm64: NEON) serve.
+/// LIMBCAST_BIT_COUNTING_SIMD is for a function that counts the bits of vectors' bytes, and is to
+/// be called where counts_bits_of_vectors() only.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define LIMBCAST_SIMD __attribute__((target_clones("avx2", "default"), optimize("O3")))
+#define LIMBCAST_BIT_COUNTING_SIMD \
+  __attribute__((target("avx512bitalg,avx512vl,avx512bw"), optimize("O3")))
 #else
 #define LIMBCAST_SIMD
+#define LIMBCAST_BIT_COUNTING_SIMD
 #endif
+
+namespace limbcast::reconstructor {
+
+inline bool counts_bits_of_vectors() {
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  return __builtin_cpu_supports("avx512bitalg") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+         __builtin_cpu_supports("avx512bw") != 0;
+#else
+  return true;
+#endif
+}
+
+}  // namespace limbcast::reconstructor
