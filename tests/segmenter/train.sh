@@ -11,16 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
-folders=()
-
-# simulate NAME SET SENSOR FRAMES SEED [OPTION...]
-simulate() {
-  local folder=$simulated/$1
-  folders+=("$folder")
-  [ -e "$folder/timestamps.csv" ] && return
-  echo "simulating $folder"
-  "$bin/limbcast-simulate" --output "$folder" --set "$2" --sensor "$3" --frames "$4" --seed "$5" "${@:6}"
-}
+source tests/support/simulated_sets.sh
 
 # Pairs, matched by the reconstructor as it is.
 simulate s_multi multi stereo 120 101 --child-share 0.15
