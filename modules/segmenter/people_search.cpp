@@ -181,8 +181,9 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
                                         const HeadClassifier& classifier,
                                         const ClassifierParams& params,
                                         std::vector<RejectedHead>& rejected) {
+  const float prior_odds = lattice.wraps_around ? params.panorama_odds : 0.0F;
   for (HeadCandidate& candidate : candidates)
-    candidate.odds = classifier.head_odds(lattice, candidate);
+    candidate.odds = classifier.head_odds(lattice, candidate) + prior_odds;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const HeadCandidate& a, const HeadCandidate& b) { return a.odds > b.odds; });
   std::vector<HeadCandidate> likely;

@@ -206,8 +206,8 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);
     else
-      fill_from_scan(source, label, down, params_.panorama.focal_px, params_.panorama.gap_px,
-                     segment);
+      fill_from_scan(source, label, down, params_.scan_range_image.focal_px,
+                     params_.scan_range_image.gap_px, segment);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "common/units.hpp"
 #include "modules/segmenter/cluster_figures.hpp"
 #include "modules/segmenter/panorama.hpp"
+#include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "modules/simulate/simulator.hpp"
@@ -28,7 +29,8 @@ Cloud scan_of(std::vector<Eigen::Vector3f> points_m) {
 LevelFrame level_frame() { return make_level_frame(Gravity{}, std::nullopt); }
 
 TEST(Panorama, LabelsAllPointsOfALimbThatReachesAwayFromTheSensor) {
-  const PanoramaParams params;
+  // An even number of columns, so that one begins straight ahead.
+  const PanoramaParams params{150.0F, 4};
   // Two or three points share a pixel, whose nearest and farthest are up to 10 cm apart: more than
   // a step of growing. The next is 5 cm behind the last.
   std::vector<Eigen::Vector3f> points_m;
@@ -78,11 +80,26 @@ TEST(ClusterFigures, AreTheSameOnAllSidesOfAScanner) {
   const ClusterFigures ahead = figures_at(0.0F);
   for (const float azimuth_rad : {-0.5F * kPi<float>, 0.25F * kPi<float>, 0.8F * kPi<float>}) {
     const ClusterFigures turned = figures_at(azimuth_rad);
-    // A pixel of the panorama is 2 cm wide there, and each side may lose one.
+    // A pixel of the panorama is 1.3 cm wide there, and each side may lose one.
     EXPECT_NEAR(turned.shoulder_width_m, ahead.shoulder_width_m, 0.04F);
     EXPECT_NEAR(turned.head_width_m, ahead.head_width_m, 0.04F);
     EXPECT_NEAR(turned.torso_depth_m, ahead.torso_depth_m, 0.04F);
   }
+}
+
+TEST(LikelyHeads, AreRarerAmongTheManyPlacesOfAPanorama) {
+  const Params params;
+  const Lattice panorama = render_panorama(figure_at(0.0F), level_frame(), params.panorama);
+  const std::vector<HeadCandidate> candidates = find_heads(panorama, params.head);
+  ASSERT_FALSE(candidates.empty());
+  const HeadClassifier classifier;
+  ClassifierParams any;
+  any.min_head_odds = -100.0F;
+  std::vector<RejectedHead> rejected;
+  const auto heads = likely_heads(panorama, {candidates[0]}, classifier, any, rejected);
+  ASSERT_EQ(heads.size(), 1U);
+  EXPECT_LT(any.panorama_odds, 0.0F);
+  EXPECT_FLOAT_EQ(heads[0].odds, classifier.head_odds(panorama, candidates[0]) + any.panorama_odds);
 }
 
 TEST(RangeImageOfAScan, LeavesOutWhatMayBeABody) {
@@ -95,7 +112,7 @@ TEST(RangeImageOfAScan, LeavesOutWhatMayBeABody) {
   const SkinColor skin;
   Segment segment;
   fill_from_scan({cloud, labels, skin, 0.0F, /*margin_m=*/0.4F}, 0, {0.0F, 1.0F, 0.0F},
-                 params.panorama.focal_px, params.panorama.gap_px, segment);
+                 params.scan_range_image.focal_px, params.scan_range_image.gap_px, segment);
 
   const RangeImage& image = segment.range_image.value();
   ASSERT_EQ(image.labels.size(), image.depth_m.size());
