@@ -70,13 +70,5 @@ TEST_F(Confidence, OfAPersonFallsWithADoubtfulHeadAndAnOddPosture) {
   EXPECT_LT(person_confidence(evidence_), doubtful_head);
 }
 
-TEST_F(Confidence, OfAPersonFallsWhereTheSensorSawThroughMoreOfTheLegsThanRaggedSilhouettesShow) {
-  const Real before = person_confidence(evidence_);
-  evidence_.legs_seen_through = 0.02;
-  EXPECT_EQ(person_confidence(evidence_), before);
-  evidence_.legs_seen_through = 0.5;
-  EXPECT_LT(person_confidence(evidence_), 0.5);
-}
-
 }  // namespace
 }  // namespace limbcast::pose_fitter::refined

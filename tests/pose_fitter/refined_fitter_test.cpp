@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "modules/pose_fitter/refined/evidence.hpp"
 #include "modules/pose_fitter/refined/solver.hpp"
@@ -241,46 +240,6 @@ TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
   EXPECT_GT(evidence.shape_flip_gap, 0.0);
   EXPECT_NEAR(evidence.flip_gap - evidence.shape_flip_gap, 3.0 * params.face_cost_per_log_odds,
               0.01);
-}
-
-/// What tells whether the thing of a segment is a person.
-refined::Evidence evidence_of(const Segment& segment) {
-  const RefinedParams params;
-  const auto observation = refined::observe(segment, testing::stamp(), params);
-  if (!observation) throw std::invalid_argument("too few points");
-  refined::PoseSearch search(*observation, params);
-  return gather_evidence(search.run(), search);
-}
-
-/// Changes what is seen lower than the hips of a body that stands 2.5 m away.
-template <class Change>
-Segment with_other_legs(Segment segment, const Change& change) {
-  constexpr int kHips_v = 290;
-  RangeImage& image = *segment.range_image;
-  for (int v = kHips_v; v < image.camera.height; ++v) {
-    for (int u = 0; u < image.camera.width; ++u) {
-      const auto i = static_cast<std::size_t>(v) * image.camera.width + u;
-      change(u, image.depth_m[i], image.labels[i]);
-    }
-  }
-  return segment;
-}
-
-TEST(RefinedEvidence, TellsWhereTheSensorSawThroughTheLegs) {
-  const Segment person = testing::seen(testing::standing_body(2.5, 0.0));
-  const Segment coat_stand = with_other_legs(person, [](int u, float& depth_m, PixelLabel& label) {
-    const bool pole = std::abs(u - 320) < 5;
-    depth_m = pole ? 2.5F : 4.5F;
-    label = pole ? PixelLabel::kPerson : PixelLabel::kOther;
-  });
-  const Segment behind_table = with_other_legs(person, [](int, float& depth_m, PixelLabel& label) {
-    depth_m = 1.8F;
-    label = PixelLabel::kOther;
-  });
-
-  EXPECT_LT(evidence_of(person).legs_seen_through, 0.02);
-  EXPECT_GT(evidence_of(coat_stand).legs_seen_through, 0.15);
-  EXPECT_LT(evidence_of(behind_table).legs_seen_through, 0.02);
 }
 
 TEST(RefinedCost, HoldsAGuessedHeadLessThanOneInSight) {

@@ -12,9 +12,6 @@ namespace {
 
 /// Evidence beyond this many units of cost adds nothing.
 constexpr Real kMostEvidence = 30.0, kMostGap = 15.0;
-/// The share of the legs that the sensor seems to see through where silhouettes are ragged: more in
-/// one of ten people only.
-constexpr Real kRaggedLegs = 0.02;
 constexpr Real kLeastPriorCost = 0.1, kLeastSigmaM = 1e-4, kLeastSigmaDeg = 0.1;
 
 Real strength(Real cost) { return std::log1p(std::clamp(cost, 0.0, kMostEvidence)); }
@@ -61,7 +58,7 @@ PersonFeatures person_features(const Evidence& evidence) {
   PersonFeatures features;
   features << 1.0, odd_posture(evidence), strength(evidence.shape_flip_gap),
       strength(evidence.arms[0].support) + strength(evidence.arms[1].support), evidence.legs_share,
-      evidence.head_odds, std::max(0.0, evidence.legs_seen_through - kRaggedLegs);
+      evidence.head_odds;
   return features;
 }
 

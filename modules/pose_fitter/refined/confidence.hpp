@@ -10,7 +10,7 @@ template <int count>
 using Features = Eigen::Matrix<Real, count, 1>;
 using JointFeatures = Features<9>;
 using DirectionFeatures = Features<7>;
-using PersonFeatures = Features<7>;
+using PersonFeatures = Features<6>;
 
 /// What tells that a joint is within 10 cm.
 JointFeatures joint_features(const Evidence& evidence, int joint);
@@ -19,8 +19,7 @@ JointFeatures joint_features(const Evidence& evidence, int joint);
 DirectionFeatures direction_features(const BodyState& body, const ArmEvidence& arm,
                                      const Evidence& evidence);
 /// What tells a person from furniture, which fits a body too, but in an odd posture, as well from
-/// the back, without limbs of its own and with a doubtful head; and a coat stand's pole or a bust's
-/// foot is no pair of legs.
+/// the back, without limbs of its own and with a doubtful head.
 PersonFeatures person_features(const Evidence& evidence);
 
 Real joint_confidence(const Evidence& evidence, int joint);

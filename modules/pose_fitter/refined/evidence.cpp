@@ -73,55 +73,6 @@ bool in_sight(const Observation& observation, const Vec3& point, Real radius) {
   return surface <= 0.0 || surface > point.z() - radius - kHiddenM - noise;
 }
 
-/// Where a limb is looked at: along its axis, and across it in radii. Its rim is left out, as that
-/// is ragged in any silhouette.
-constexpr int kSamplesAlongLimb = 12;
-constexpr std::array<Real, 4> kSamplesAcrossLimb = {-0.5, -0.2, 0.2, 0.5};
-
-/// What the sensor saw at samples of a limb.
-struct LimbSight {
-  int body = 0;     ///< the person's own surface
-  int through = 0;  ///< what lies behind the limb
-  int count() const { return body + through; }
-};
-
-void look_at_limb(const Observation& observation, const BodyState& body, int from, int to,
-                  LimbSight& sight) {
-  const PinholeCamera& camera = observation.camera;
-  const Vec3 axis = body.points[to] - body.points[from];
-  for (int i = 0; i < kSamplesAlongLimb; ++i) {
-    const Real t = (i + 0.5) / kSamplesAlongLimb;
-    const Vec3 center = body.points[from] + t * axis;
-    const Vec3 across = axis.cross(center).normalized();
-    const Real radius =
-        body.stature_m() * (kPointRadius[from] + t * (kPointRadius[to] - kPointRadius[from]));
-    for (const Real share : kSamplesAcrossLimb) {
-      const Vec3 sample = center + share * radius * across;
-      if (sample.z() < kNearestM) continue;
-      const int u = static_cast<int>(std::lround(camera.fx * sample.x() / sample.z() + camera.cx));
-      const int v = static_cast<int>(std::lround(camera.fy * sample.y() / sample.z() + camera.cy));
-      if (!observation.inside(u, v) || !observation.in_sensor_image(u, v)) continue;
-      const std::size_t pixel = observation.at(u, v);
-      if (observation.surface_m[pixel] > 0.0F)
-        ++sight.body;
-      else if (observation.clearance_px[pixel] < 0.0F)
-        ++sight.through;
-    }
-  }
-}
-
-Real legs_seen_through(const Observation& observation, const BodyState& body) {
-  LimbSight sight;
-  for (const int side : {0, 1}) {
-    look_at_limb(observation, body, kHip + side, kKnee + side, sight);
-    look_at_limb(observation, body, kKnee + side, kAnkle + side, sight);
-  }
-  // Of legs that are mostly hidden the rims are in sight, which are ragged.
-  constexpr int kAllSamples = 4 * kSamplesAlongLimb * static_cast<int>(kSamplesAcrossLimb.size());
-  if (2 * sight.count() < kAllSamples) return 0.0;
-  return static_cast<Real>(sight.through) / sight.count();
-}
-
 Real surface_cost_without(const Cones& cones, const FitStage& stage, unsigned parts,
                           Real robust_sigmas) {
   const auto workspace = std::make_unique<Workspace>();
@@ -204,7 +155,6 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
         in_sight(observation, body.points[i], kPointRadius[i] * body.stature_m());
   }
   weigh_points(cones, *stage.points, evidence);
-  evidence.legs_seen_through = legs_seen_through(observation, body);
 
   evidence.flip_gap = flip_gap(candidates, [](const PoseCandidate& pose) { return pose.cost; });
   evidence.shape_flip_gap = flip_gap(candidates, [&](const PoseCandidate& pose) {

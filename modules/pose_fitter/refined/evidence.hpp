@@ -22,9 +22,6 @@ struct Evidence {
   Real weight = 0.0;          ///< of all points
   Real head_odds = 0.0;       ///< logarithm of the odds that the segment began at a head
   Real legs_share = 0.0;      ///< of that weight, nearest to the legs
-  /// Share of thighs and shins that the sensor saw through, of what nothing hides; 0 where more
-  /// than half of them is hidden.
-  Real legs_seen_through = 0.0;
   Real surface_cost = 0.0, prior_cost = 0.0;
   std::array<Real, kPointCount> sigma_m{};   ///< of each point along its worst axis
   std::array<bool, kPointCount> in_sight{};  ///< nothing seen before it, in the image
