@@ -73,8 +73,9 @@ class Module {
 
   /// Lets the stages after this one have the processor first, by five steps of nice(2) for each:
   /// they skip frames where it is short, and with a frame all that was spent on it before. A camera
-  /// of 30 frames/s gives half as many poses again on two cores. To be called before threads are
-  /// started; who launches a module may add steps, or take some back.
+  /// of 30 frames/s gives half as many poses again on two cores. To be called between subscribing
+  /// and run(): LCM's thread must go on to read in time, or messages are lost. Who launches a
+  /// module may add steps, or take some back.
   void give_way(int num_stages_after);
 
   /// Handles messages until SIGINT or SIGTERM.

@@ -18,7 +18,6 @@ void run(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return;
 
   lcm_io::Module module("reconstructor", parser.common());
-  module.give_way(2);
   Stage stage(options);
   DriftWatch drift_watch;
   std::string drift;
@@ -43,6 +42,7 @@ void run(int argc, const char* const* argv) {
       options.depth_images_channel, [&](const depth_images_t& message) {
         module.publish_frame(options.point_cloud_channel, stage.process(message));
       });
+  module.give_way(2);
   module.run();
 }
 

@@ -15,7 +15,6 @@ void run(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return;
 
   lcm_io::Module module("segmenter", parser.common());
-  module.give_way(1);
   const Stage stage(options);
   if (!stage.problem().empty()) {
     module.set_note(stage.problem());
@@ -25,6 +24,7 @@ void run(int argc, const char* const* argv) {
       options.point_cloud_channel, [&](const point_cloud_t& message) {
         module.publish_frame(options.segments_channel, stage.process(message));
       });
+  module.give_way(1);
   module.run();
 }
 

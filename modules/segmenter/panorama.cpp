@@ -28,7 +28,7 @@ Pixel project(const Lattice& panorama, const Eigen::Vector3f& level_m) {
   const float azimuth_rad = std::atan2(level_m.x(), level_m.y());
   const float slope = (level_m.z() - panorama.frame.sensor_height_m) / distance_m;
   const int u =
-      static_cast<int>(std::floor((azimuth_rad + kPi<float>)*panorama.focal_px)) % panorama.width;
+      static_cast<int>(std::floor(panorama.focal_px * (azimuth_rad + kPi<float>))) % panorama.width;
   return {u, static_cast<int>(std::floor((kMaxSlope - slope) * panorama.focal_px)), distance_m};
 }
 
