@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/human_model/ground_truth_json.hpp"
@@ -82,6 +83,7 @@ TEST(FrameMessages, ALaserFrameIsAListOfFinitePoints) {
   EXPECT_FALSE(cloud.organized());
   EXPECT_GT(cloud.points_m.size(), 1000U);
   EXPECT_EQ(cloud.intensities.size(), cloud.points_m.size());
+  EXPECT_GT(*std::max_element(cloud.intensities.begin(), cloud.intensities.end()), 0.0F);
 }
 
 TEST(FrameMessages, TheTruthIsThatOfTheFolder) {
