@@ -110,7 +110,7 @@ class VelodyneSource : public CloudSource {
   std::optional<CloudFrame> next() override {
     while (const std::optional<Packet> packet = packets_.next()) {
       if (packet->payload.size() != kVelodynePacketBytes) continue;
-      if (!decoder_) decoder_.emplace(model_of(*packet));
+      if (!decoder_ && !find_model(*packet)) continue;
       if (auto sweep = decoder_->add(packet->payload, packet->utime)) {
         const RawCloud raw{
             std::move(sweep->points_m), {}, std::move(sweep->intensities), std::move(sweep->rings)};
@@ -119,6 +119,7 @@ class VelodyneSource : public CloudSource {
       }
     }
     ended_ = !is_live_;
+    if (ended_ && !decoder_ && model_finder_.num_packets() > 0) throw unknown_model();
     if (ended_ && sequence_ == 0) {
       throw InputError(params_.source +
                        ": holds no whole turn of a Velodyne; record for a second or more");
@@ -132,12 +133,16 @@ class VelodyneSource : public CloudSource {
   }
 
  private:
-  VelodyneModel model_of(const Packet& packet) const {
-    const std::optional<VelodyneModel> model = velodyne_model(packet.payload);
-    if (!model) {
-      throw InputError(params_.source + ": its packets name no known model; give --velodyne-model");
-    }
-    return *model;
+  /// Packets are left out until they have told the model: they belong to the first turn, of which
+  /// the beginning is missing anyway.
+  bool find_model(const Packet& packet) {
+    const std::optional<VelodyneModel> model = model_finder_.add(packet.payload);
+    if (model) decoder_.emplace(*model);
+    if (!model && model_finder_.gave_up()) throw unknown_model();
+    return model.has_value();
+  }
+  InputError unknown_model() const {
+    return InputError(params_.source + ": its packets name no known model; give --velodyne-model");
   }
 
   CloudSourceParams params_;
@@ -145,6 +150,7 @@ class VelodyneSource : public CloudSource {
   Axes axes_;
   bool is_live_;
   bool ended_ = false;
+  VelodyneModelFinder model_finder_;
   std::optional<VelodyneDecoder> decoder_;
   std::int64_t sequence_ = 0;
 };

@@ -14,6 +14,10 @@ constexpr double kDistanceUnit_m = 0.002;
 constexpr double kAzimuthUnit_deg = 0.01;
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 constexpr std::uint8_t kDualReturn = 0x39;
+constexpr std::uint8_t kVlp16Byte = 0x22, kHdl32Byte = 0x21;
+constexpr std::size_t kClockAt = kBlocks * kBlockBytes;
+/// The clock counts whole microseconds, which count twice with two returns a laser, and drifts.
+constexpr double kClockTolerance_us = 5.0;
 
 /// Elevations in the order of firing [degrees].
 constexpr std::array<double, 16> kVlp16Elevations = {-15, 1, -13, 3,  -11, 5,  -9, 7,
@@ -23,12 +27,16 @@ constexpr std::array<double, 32> kHdl32Elevations = {
     -2.67,  -22.67, -1.33,  -21.33, 0.00,   -20.00, 1.33,   -18.67, 2.67,   -17.33, 4.00,
     -16.00, 5.33,   -14.67, 6.67,   -13.33, 8.00,   -12.00, 9.33,   -10.67, 10.67};
 
-/// How far the scanner has turned at a return, as a share of the turn from block to block. VLP-16:
-/// two firings of 16 lasers, 2.304 us a laser and 55.296 us a firing; HDL-32E: 1.152 us a
-/// laser, 46.08 us a firing.
+/// What a block takes [us]. VLP-16: two firings of 16 lasers, 2.304 us a laser and 55.296 us a
+/// firing; HDL-32E: one firing, 1.152 us a laser and 46.08 us in all.
+double block_us(VelodyneModel model) { return model == VelodyneModel::kHdl32 ? 46.08 : 110.592; }
+
+/// How far the scanner has turned at a return, as a share of the turn from block to block.
 double share_of_block(VelodyneModel model, int index) {
-  if (model == VelodyneModel::kHdl32) return 1.152 * index / 46.08;
-  return (2.304 * (index % 16) + (index < 16 ? 0.0 : 55.296)) / 110.592;
+  const double return_us = model == VelodyneModel::kHdl32
+                               ? 1.152 * index
+                               : 2.304 * (index % 16) + (index < 16 ? 0.0 : 55.296);
+  return return_us / block_us(model);
 }
 
 double elevation_deg(VelodyneModel model, int index) {
@@ -56,6 +64,9 @@ std::uint16_t ring(VelodyneModel model, int index) {
 }
 
 int number_16(const std::uint8_t* bytes) { return bytes[0] | bytes[1] << 8; }
+std::int64_t number_32(const std::uint8_t* bytes) {
+  return number_16(bytes) + std::int64_t{65536} * number_16(bytes + 2);
+}
 
 /// Azimuth from behind the scanner on, where turns are cut [degrees, 0 to 360).
 double from_behind_deg(double azimuth_deg) { return std::fmod(azimuth_deg + 180.0, 360.0); }
@@ -69,6 +80,12 @@ bool is_data(const std::vector<std::uint8_t>& packet) {
   return true;
 }
 
+/// Two returns a laser: blocks come in pairs of the same azimuth, the last return, then the
+/// strongest.
+bool is_dual(const std::vector<std::uint8_t>& packet) {
+  return packet[kVelodynePacketBytes - 2] == kDualReturn;
+}
+
 double azimuth_deg(const std::vector<std::uint8_t>& packet, int block) {
   return kAzimuthUnit_deg *
          number_16(packet.data() + static_cast<std::size_t>(block) * kBlockBytes + 2);
@@ -76,10 +93,22 @@ double azimuth_deg(const std::vector<std::uint8_t>& packet, int block) {
 
 }  // namespace
 
-std::optional<VelodyneModel> velodyne_model(const std::vector<std::uint8_t>& packet) {
+std::optional<VelodyneModel> VelodyneModelFinder::add(const std::vector<std::uint8_t>& packet) {
   if (!is_data(packet)) return std::nullopt;
-  if (packet.back() == 0x22) return VelodyneModel::kVlp16;
-  if (packet.back() == 0x21) return VelodyneModel::kHdl32;
+  ++num_packets_;
+  if (packet.back() == kVlp16Byte) return VelodyneModel::kVlp16;
+  const std::int64_t clock_us = number_32(packet.data() + kClockAt);
+  // With two returns a laser, a packet holds half as many firings.
+  const double packets_of_all_firings = is_dual(packet) ? 2.0 : 1.0;
+  if (last_clock_us_) {
+    const double all_firings_us =
+        packets_of_all_firings * static_cast<double>(clock_us - *last_clock_us_);
+    for (const VelodyneModel model : {VelodyneModel::kVlp16, VelodyneModel::kHdl32}) {
+      if (std::abs(all_firings_us - kBlocks * block_us(model)) < kClockTolerance_us) return model;
+    }
+  }
+  last_clock_us_ = clock_us;
+  if (gave_up() && packet.back() == kHdl32Byte) return VelodyneModel::kHdl32;
   return std::nullopt;
 }
 
@@ -89,10 +118,7 @@ std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packe
     ++num_malformed_;
     return std::nullopt;
   }
-  // With two returns a laser, blocks come in pairs of the same azimuth: the last return, then the
-  // strongest.
-  const bool is_dual = packet[kVelodynePacketBytes - 2] == kDualReturn;
-  const int step = is_dual ? 2 : 1;
+  const int step = is_dual(packet) ? 2 : 1;
   std::optional<Sweep> whole;
   double turn_deg = 0.0;
   for (int block = step - 1; block < kBlocks; block += step) {

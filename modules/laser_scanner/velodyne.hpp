@@ -16,8 +16,24 @@ inline constexpr int kVelodynePort = 2368;
 
 enum class VelodyneModel { kVlp16, kHdl32 };
 
-/// The model that a packet names in its last byte (0x22 VLP-16, 0x21 HDL-32E), where it is known.
-std::optional<VelodyneModel> velodyne_model(const std::vector<std::uint8_t>& packet);
+/// Tells from a scanner's first packets which model sends them. A last byte of 0x22 is a VLP-16's;
+/// 0x21 is an HDL-32E's, but early VLP-16 send it too. So the time from packet to packet on the
+/// scanner's own clock decides: 24 firings of a VLP-16 take 1327 us, 12 of an HDL-32E 553 us.
+class VelodyneModelFinder {
+ public:
+  /// The model, as soon as the packets tell it. Where kPackets have told no times (a clock that
+  /// stands, packets lost all the time), the last byte decides.
+  std::optional<VelodyneModel> add(const std::vector<std::uint8_t>& packet);
+  /// So many packets were seen that later ones will not tell the model either.
+  bool gave_up() const { return num_packets_ >= kPackets; }
+  std::int64_t num_packets() const { return num_packets_; }
+
+ private:
+  static constexpr std::int64_t kPackets = 20;
+
+  std::int64_t num_packets_ = 0;
+  std::optional<std::int64_t> last_clock_us_;
+};
 
 /// One turn of the scanner.
 struct Sweep {

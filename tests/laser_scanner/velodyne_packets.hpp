@@ -10,9 +10,11 @@
 namespace limbcast::laser_scanner {
 
 /// A VLP-16 packet whose 12 blocks start at this azimuth, 0.4 degrees each, all returns at this
-/// distance; the intensity of a return is 100 plus its number in the block.
+/// distance; the intensity of a return is 100 plus its number in the block. Its last two bytes tell
+/// the kind of returns and the model.
 inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distance_m,
-                                              std::uint8_t model = 0x22) {
+                                              std::uint8_t model = 0x22, std::uint32_t clock_us = 0,
+                                              std::uint8_t returns = 0x37) {
   std::vector<std::uint8_t> packet;
   const auto number_16 = [&packet](int value) {
     packet.push_back(static_cast<std::uint8_t>(value & 0xFF));
@@ -26,7 +28,9 @@ inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distanc
       packet.push_back(static_cast<std::uint8_t>(100 + i));
     }
   }
-  packet.insert(packet.end(), {0, 0, 0, 0, 0x37, model});
+  number_16(static_cast<int>(clock_us & 0xFFFFU));
+  number_16(static_cast<int>(clock_us >> 16U));
+  packet.insert(packet.end(), {returns, model});
   return packet;
 }
 

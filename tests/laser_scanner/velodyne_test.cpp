@@ -104,10 +104,40 @@ TEST(Velodyne, CountsPacketsThatAreNone) {
   EXPECT_EQ(decoder.num_malformed(), 2);
 }
 
-TEST(Velodyne, KnowsItsModel) {
-  EXPECT_EQ(velodyne_model(vlp16_packet(0.0, 1.0, 0x22)), VelodyneModel::kVlp16);
-  EXPECT_EQ(velodyne_model(vlp16_packet(0.0, 1.0, 0x21)), VelodyneModel::kHdl32);
-  EXPECT_FALSE(velodyne_model(vlp16_packet(0.0, 1.0, 0x99)));
+/// The model that packets of this last byte tell whose clock tells these times [us].
+std::optional<VelodyneModel> model_of(std::uint8_t last_byte,
+                                      const std::vector<std::uint32_t>& clocks_us,
+                                      std::uint8_t returns = 0x37) {
+  VelodyneModelFinder finder;
+  std::optional<VelodyneModel> model;
+  for (const std::uint32_t clock_us : clocks_us) {
+    model = finder.add(vlp16_packet(0.0, 1.0, last_byte, clock_us, returns));
+  }
+  return model;
+}
+
+TEST(VelodyneModelFinder, KnowsAVlp16ByItsLastByte) {
+  EXPECT_EQ(model_of(0x22, {0}), VelodyneModel::kVlp16);
+}
+
+TEST(VelodyneModelFinder, KnowsAnEarlyVlp16ThatCallsItselfHdl32ByItsClock) {
+  EXPECT_FALSE(model_of(0x21, {70'000}));
+  EXPECT_EQ(model_of(0x21, {70'000, 71'327}), VelodyneModel::kVlp16);
+  EXPECT_EQ(model_of(0x21, {70'000, 70'664}, 0x39), VelodyneModel::kVlp16);
+  EXPECT_EQ(model_of(0x21, {70'000, 70'553}), VelodyneModel::kHdl32);
+  EXPECT_EQ(model_of(0x21, {70'000, 70'276}, 0x39), VelodyneModel::kHdl32);
+}
+
+TEST(VelodyneModelFinder, IsNotMisledByLostPacketsOrTheHoursEnd) {
+  EXPECT_FALSE(model_of(0x21, {70'000, 71'106}));
+  EXPECT_EQ(model_of(0x21, {70'000, 71'106, 71'659}), VelodyneModel::kHdl32);
+  EXPECT_EQ(model_of(0x21, {3'599'999'900, 453, 1'006}), VelodyneModel::kHdl32);
+}
+
+TEST(VelodyneModelFinder, TrustsTheLastByteWhereTheClockStands) {
+  EXPECT_FALSE(model_of(0x21, std::vector<std::uint32_t>(19, 5)));
+  EXPECT_EQ(model_of(0x21, std::vector<std::uint32_t>(20, 5)), VelodyneModel::kHdl32);
+  EXPECT_FALSE(model_of(0x99, std::vector<std::uint32_t>(20, 5)));
 }
 
 class Recorded : public ::testing::Test {
