@@ -35,11 +35,13 @@ std::string url_within_limits(const std::string& url) {
 
 }  // namespace
 
-std::string effective_url(const std::string& url) {
+std::string chosen_url(const std::string& url) {
   if (!url.empty()) return url;
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
 }
+
+std::string effective_url(const std::string& url) { return with_receive_buffer(chosen_url(url)); }
 
 void wait_for_network(const std::string& url) {
   const auto multicast = parse_multicast_url(effective_url(url));

@@ -16,11 +16,12 @@
 
 namespace limbcast::lcm_io {
 
-/// This host only, unless the user says otherwise: LCM has no authentication. The buffer holds
-/// several images or clouds while a process is not scheduled.
-inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4000000";
+/// This host only, unless the user says otherwise: LCM has no authentication.
+inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 /// `url` if given, else $LCM_DEFAULT_URL, else kDefaultUrl.
+std::string chosen_url(const std::string& url);
+/// The chosen URL with the receive buffer that limbcast needs, where it names none.
 std::string effective_url(const std::string& url);
 
 /// Returns when messages can be sent to the URL's group: at once where a route is there, else when

@@ -52,6 +52,13 @@ std::optional<MulticastUrl> parse_multicast_url(const std::string& url) {
   return parsed;
 }
 
+std::string with_receive_buffer(const std::string& url) {
+  const auto multicast = parse_multicast_url(url);
+  if (!multicast || multicast->recv_buf_size > 0) return url;
+  const char* separator = url.find('?') == std::string::npos ? "?" : url.back() == '?' ? "" : "&";
+  return url + separator + "recv_buf_size=" + std::to_string(kReceiveBufferSize);
+}
+
 std::string with_receive_buffer_of_at_most(std::int64_t limit_bytes, const std::string& url) {
   const auto multicast = parse_multicast_url(url);
   if (!multicast || multicast->recv_buf_size <= limit_bytes) return url;

@@ -21,6 +21,13 @@ struct MulticastUrl {
 /// Nothing for another kind of URL (memq://, file://) and for one that makes no sense.
 std::optional<MulticastUrl> parse_multicast_url(const std::string& url);
 
+/// Of the socket, where a URL names none [byte]: several images or clouds while a process is not
+/// scheduled. With the system's default up to half of the image pairs are lost even on one host.
+inline constexpr int kReceiveBufferSize = 4'000'000;
+
+/// The URL with kReceiveBufferSize where it is a multicast URL that names no buffer.
+std::string with_receive_buffer(const std::string& url);
+
 /// The URL with the buffer that the kernel gives, where it asks for more than `limit_bytes`: LCM
 /// would take what it gets and complain in a form of its own.
 std::string with_receive_buffer_of_at_most(std::int64_t limit_bytes, const std::string& url);

@@ -7,7 +7,7 @@ namespace limbcast::doctor {
 
 enum class Level {
   kGood,     ///< was checked and is as it should be
-  kNote,     ///< worth knowing; nothing to mend
+  kNote,     ///< worth knowing; costs limbcast nothing
   kProblem,  ///< costs messages, time or safety
 };
 

@@ -49,10 +49,11 @@ Findings check_interface(const Interface& interface) {
   return {};
 }
 
-/// "udpm://...?ttl=1" with a receive buffer of `size` bytes.
-std::string url_with_buffer(const UrlFacts& url, std::int64_t size) {
+/// Sets the URL with this ttl and a receive buffer of `size` bytes.
+std::string url_command(const UrlFacts& url, int ttl, std::int64_t size) {
   const std::string head = url.url.substr(0, url.url.find('?'));
-  return head + "?ttl=" + std::to_string(url.ttl) + "&recv_buf_size=" + std::to_string(size);
+  return "export LCM_DEFAULT_URL='" + head + "?ttl=" + std::to_string(ttl) +
+         "&recv_buf_size=" + std::to_string(size) + "'";
 }
 
 }  // namespace
@@ -95,8 +96,7 @@ Findings check_ttl(const UrlFacts& url) {
   return {{Level::kProblem, "ttl",
            std::to_string(url.ttl) +
                ": messages leave the local network, and LCM has no authentication",
-           "export LCM_DEFAULT_URL='" + url.url.substr(0, url.url.find('?')) +
-               "?ttl=1&recv_buf_size=4000000'"}};
+           url_command(url, 1, url.recv_buf_size)}};
 }
 
 Findings check_receive_buffer(const HostFacts& host, const UrlFacts& url,
@@ -114,18 +114,23 @@ Findings check_receive_buffer(const HostFacts& host, const UrlFacts& url,
          "rmem_max is " + kilobytes(*host.rmem_max) + ", sockets need " + kilobytes(needed) +
              " (the largest message has " + kilobytes(largest) + ")",
          "sysctl -w net.core.rmem_max=" + std::to_string(std::max(needed, url.recv_buf_size))});
-  // The kernel doubles what is asked for, to cover its own bookkeeping; its default is so already.
-  const std::int64_t asked = url.recv_buf_size > 0 ? url.recv_buf_size : *host.rmem_default / 2;
-  if (asked < needed)
-    findings.push_back(
-        {Level::kProblem, name,
-         "the LCM URL gives sockets " + kilobytes(asked) + ", they need " + kilobytes(needed),
-         "export LCM_DEFAULT_URL='" + url_with_buffer(url, needed) + "'"});
+  if (url.recv_buf_size < needed)
+    findings.push_back({Level::kProblem, name,
+                        "the LCM URL gives sockets " + kilobytes(url.recv_buf_size) +
+                            ", they need " + kilobytes(needed),
+                        url_command(url, url.ttl, needed)});
   if (findings.empty())
     findings.push_back({Level::kGood, name,
-                        kilobytes(std::min(asked, *host.rmem_max)) + " for messages of up to " +
-                            kilobytes(largest),
+                        kilobytes(std::min(url.recv_buf_size, *host.rmem_max)) +
+                            " for messages of up to " + kilobytes(largest),
                         ""});
+  // The kernel doubles what is asked for, to cover its own bookkeeping; its default is so already.
+  if (!url.names_buffer)
+    findings.push_back({Level::kNote, name,
+                        "the LCM URL names none: programs that are not limbcast's, such as "
+                        "lcm-logger, get " +
+                            kilobytes(*host.rmem_default / 2) + " and lose large messages",
+                        url_command(url, url.ttl, std::max(url.recv_buf_size, needed))});
   return findings;
 }
 

@@ -13,7 +13,8 @@ struct UrlFacts {
   std::string url;    ///< as given
   std::string group;  ///< multicast address
   int ttl = 0;
-  std::int64_t recv_buf_size = 0;  ///< [byte]; 0: the system's default
+  std::int64_t recv_buf_size = 0;  ///< that limbcast's programs ask for [byte]
+  bool names_buffer = false;  ///< else other programs, lcm-logger too, get the system's default
 };
 
 /// Each function looks at one thing and tells what it found.

@@ -111,7 +111,10 @@ bool examine(const Options& options, const std::string& url_text) {
   if (!multicast)
     throw config::UsageError("lcm-url '" + url_text +
                              "': is no multicast URL such as udpm://239.255.76.67:7667?ttl=1");
-  const UrlFacts url{url_text, multicast->address, multicast->ttl, multicast->recv_buf_size};
+  const auto with_buffer =
+      lcm_io::parse_multicast_url(lcm_io::with_receive_buffer(url_text)).value();
+  const UrlFacts url{url_text, multicast->address, multicast->ttl, with_buffer.recv_buf_size,
+                     multicast->recv_buf_size > 0};
   const HostFacts before = read_host_facts("/", url.group);
   Findings findings = check_route(before, url);
   Traffic traffic;
@@ -147,7 +150,7 @@ bool run(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return true;
   config::configure_log("doctor", parser.common().log_level);
   lcm_io::install_signal_handlers();
-  return examine(options, lcm_io::effective_url(parser.common().lcm_url));
+  return examine(options, lcm_io::chosen_url(parser.common().lcm_url));
 }
 
 }  // namespace

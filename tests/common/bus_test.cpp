@@ -122,10 +122,16 @@ TEST(Bus, SaysInOneLineThatTheKernelGivesASmallerBufferAndWorks) {
   EXPECT_EQ(got, 5);
 }
 
-TEST(DefaultUrl, StaysOnThisHostAndHasRoomForSeveralImages) {
+TEST(DefaultUrl, StaysOnThisHost) {
   const auto url = parse_multicast_url(kDefaultUrl);
   ASSERT_TRUE(url);
   EXPECT_EQ(url->ttl, 0);
+}
+
+TEST(EffectiveUrl, HasRoomForSeveralImagesWhereTheChosenUrlNamesNoBuffer) {
+  const auto url = parse_multicast_url(effective_url("udpm://239.255.76.67:7667?ttl=1"));
+  ASSERT_TRUE(url);
+  EXPECT_EQ(url->ttl, 1);
   constexpr int kImagePair = 200'000;  // VGA, JPEG [byte]
   EXPECT_GE(url->recv_buf_size, 10 * kImagePair);
 }

@@ -28,6 +28,15 @@ TEST(ParseMulticastUrl, RefusesWhatIsNoMulticastUrl) {
     EXPECT_FALSE(parse_multicast_url(text)) << text;
 }
 
+TEST(WithReceiveBuffer, AsksForSeveralImagesWhereAMulticastUrlNamesNoBuffer) {
+  EXPECT_EQ(with_receive_buffer("udpm://239.1.2.3:7000?ttl=1"),
+            "udpm://239.1.2.3:7000?ttl=1&recv_buf_size=4000000");
+  EXPECT_EQ(with_receive_buffer("udpm://"), "udpm://?recv_buf_size=4000000");
+  EXPECT_EQ(with_receive_buffer("udpm://?"), "udpm://?recv_buf_size=4000000");
+  for (const char* url : {"udpm://239.1.2.3:7000?recv_buf_size=2000000", "memq://", "nonsense"})
+    EXPECT_EQ(with_receive_buffer(url), url);
+}
+
 TEST(WithReceiveBufferOfAtMost, AsksForNoMoreThanTheKernelGives) {
   const std::string url = "udpm://239.1.2.3:7000?recv_buf_size=4000000&ttl=1";
   EXPECT_EQ(with_receive_buffer_of_at_most(212'992, url),

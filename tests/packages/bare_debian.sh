@@ -35,7 +35,7 @@ echo "== subscribers of one's own"
 inside 'apt-get install -y -q --no-install-recommends /packages/limbcast-dev_*.deb /packages/limbcast-java_*.deb \
   g++ cmake make pkg-config default-jdk-headless' >"$root/packages/dev.txt"
 inside 'rm -rf /root/examples; cp -r /usr/share/doc/limbcast-dev/examples /root/examples; cd /root/examples
-  export LCM_DEFAULT_URL="udpm://239.255.76.67:7668?ttl=0"
+  export LCM_DEFAULT_URL="udpm://239.255.76.67:7668?ttl=0&recv_buf_size=4000000"
   cmake -B build >/dev/null; cmake --build build
   g++ -std=c++17 subscriber.cpp -o subscriber $(pkg-config --cflags --libs limbcast)
   build/subscriber >cmake.txt & started=$!
