@@ -16,7 +16,7 @@ void JointTrack::update(const JointEstimate& measured, double elapsed_s,
   unseen_s_ += elapsed_s;
   blind_s_ += elapsed_s;
   if (measured.valid && !hold(measured)) {
-    take(measured, elapsed_s);
+    take(measured);
   } else if (estimate_.valid) {
     predict(elapsed_s, params);
   }
@@ -49,15 +49,13 @@ bool JointTrack::repeats_jump(const Eigen::Vector3f& measured_m) const {
          (measured_m - *jumped_to_m_).norm() < (measured_m - estimate_.position_m).norm();
 }
 
-void JointTrack::take(const JointEstimate& measured, double elapsed_s) {
-  const Eigen::Vector3f& position_m = measured.position_m;
-  if (!estimate_.valid) {
-    filter_.restart(position_m);
-  } else if (jumped_to_m_) {
-    filter_.restart(position_m, (position_m - *jumped_to_m_) / static_cast<float>(elapsed_s));
+void JointTrack::take(const JointEstimate& measured) {
+  if (!estimate_.valid || jumped_to_m_) {
+    // At rest, for what jumps to and fro, as a hidden arm does, has no speed that lasts.
+    filter_.restart(measured.position_m);
     jumped_to_m_.reset();
   } else {
-    filter_.update(position_m, unseen_s_);
+    filter_.update(measured.position_m, unseen_s_);
   }
   // Sigma and confidence stay the fitter's: what it gets wrong in all frames alike does not average
   // out.

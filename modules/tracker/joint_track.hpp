@@ -27,7 +27,7 @@ class JointTrack {
   bool has_jumped(const Eigen::Vector3f& measured_m) const;
   bool repeats_jump(const Eigen::Vector3f& measured_m) const;
   bool hold(const JointEstimate& measured);
-  void take(const JointEstimate& measured, double elapsed_s);
+  void take(const JointEstimate& measured);
   void predict(double elapsed_s, const PredictionParams& params);
 
   OneEuroFilter filter_;

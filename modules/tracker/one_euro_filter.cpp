@@ -16,10 +16,10 @@ float sample_weight(double cutoff_hz, double elapsed_s) {
 
 }  // namespace
 
-void OneEuroFilter::restart(const Eigen::Vector3f& value, const Eigen::Vector3f& speed) {
+void OneEuroFilter::restart(const Eigen::Vector3f& value) {
   started_ = true;
   value_ = last_measured_ = value;
-  speed_ = speed;
+  speed_.setZero();
   distance_.setZero();
   memory_ = 1.0;
 }

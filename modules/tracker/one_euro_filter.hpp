@@ -30,9 +30,8 @@ class OneEuroFilter {
   explicit OneEuroFilter(const OneEuroParams& params) : params_(params) {}
 
   bool started() const { return started_; }
-  /// Starts anew at `value`.
-  void restart(const Eigen::Vector3f& value,
-               const Eigen::Vector3f& speed = Eigen::Vector3f::Zero());
+  /// Starts anew at `value`, at rest.
+  void restart(const Eigen::Vector3f& value);
   /// Takes the value measured `elapsed_s` after the last measurement.
   void update(const Eigen::Vector3f& value, double elapsed_s);
   /// Goes on for `elapsed_s` without a measurement: the value moves at its speed, which dies away

@@ -168,6 +168,25 @@ TEST(Tracker, HoldsAJointThatJumpsForOneFrameAndFollowsOneThatStays) {
   EXPECT_TRUE(followed.position_m.isApprox(jumped[Joint::kWristLeft].position_m, 1e-4F));
 }
 
+TEST(Tracker, LeavesAJointWhereItJumpedToWhenItIsSeenNoMore) {
+  Tracker tracker;
+  for (int i = 0; i < 5; ++i) tracker.track(frame(i, {standing_figure()}));
+  const auto with_wrist_lower = [](float by_m) {
+    BodyPose pose = standing_figure();
+    pose[Joint::kWristLeft].position_m.y() += by_m;
+    return pose;
+  };
+  tracker.track(frame(5, {with_wrist_lower(0.6F)}));
+  tracker.track(frame(6, {with_wrist_lower(0.4F)}));
+  BodyPose hidden = standing_figure();
+  hidden[Joint::kWristLeft] = JointEstimate{};
+  for (int i = 7; i < 10; ++i) {
+    const BodyPose pose = tracker.track(frame(i, {hidden}))->persons.at(0);
+    EXPECT_NEAR(pose[Joint::kWristLeft].position_m.y(),
+                with_wrist_lower(0.4F)[Joint::kWristLeft].position_m.y(), 0.01F);
+  }
+}
+
 TEST(Tracker, KeepsLeftAndRightWhenTheFitterExchangesThemForAFewFrames) {
   Tracker tracker;
   const BodyPose right = standing_figure(), wrong = sides_exchanged(standing_figure());
