@@ -281,11 +281,17 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
                   fit.epipolar_px, params.max_epipolar_px));
   judge_lens("left", calibration.left.camera, fit.left, params, verdict.faults);
   judge_lens("right", calibration.right.camera, fit.right, params, verdict.faults);
-  if (coverage < params.min_coverage)
+  if (coverage < params.min_coverage) {
     verdict.faults.push_back(
         formatted("the boards cover %.0f %% of the image (limit %.0f %%); outside of "
                   "that the distortion is a guess",
                   100.0 * coverage, 100.0 * params.min_coverage));
+  } else if (coverage < params.enough_coverage) {
+    verdict.warnings.push_back(
+        formatted("the boards cover %.0f %% of the image; outside of that depth may be wrong by "
+                  "some percent, %.0f %% or more give a better result",
+                  100.0 * coverage, 100.0 * params.enough_coverage));
+  }
   if (static_cast<int>(fit.views.size()) < params.enough_views)
     verdict.warnings.push_back(formatted("only %zu views; %d or more give a better result",
                                          fit.views.size(), params.enough_views));

@@ -74,9 +74,12 @@ struct VerdictParams {
   double min_tilt_deg = 8.0;
   /// Difference of the focal lengths fx, fy of one lens as a share: pixels are square.
   double max_aspect_error = 0.05;
-  /// Share of the image that the boards must have covered: outside of it distortion is a guess.
-  double min_coverage = 0.35;
-  /// Fewer views are a warning.
+  /// Share of the image that the boards must have covered: outside of it distortion is a guess. On
+  /// rendered boards, with 25 to 35 % the focal lengths are right within 0.1 %, but in the corners
+  /// depth is wrong by 3 to 5 %; with 20 % half the image is.
+  double min_coverage = 0.25;
+  /// Less coverage and fewer views are warnings.
+  double enough_coverage = 0.35;
   int enough_views = 10;
 };
 

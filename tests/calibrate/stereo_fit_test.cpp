@@ -39,8 +39,8 @@ StereoFit fit_rendered(const Board& board, int count) {
 TEST(StereoFit, FindsTheCamerasFromPicturesOfAChessboard) {
   const StereoFit fit = fit_rendered({}, 10);
   expect_found(fit.calibration, true_cameras());
-  EXPECT_LT(fit.reprojection_px, 0.2);
-  EXPECT_LT(fit.epipolar_px, 0.2);
+  EXPECT_LT(fit.reprojection_px, 0.1);
+  EXPECT_LT(fit.epipolar_px, 0.1);
 }
 
 TEST(StereoFit, FindsTheCamerasFromPicturesOfACharucoBoard) {
@@ -116,6 +116,15 @@ TEST(Judge, RefusesWhatCoversLittleOfTheImage) {
   const StereoFit fit =
       fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
   EXPECT_THAT(judge(fit, 0.2).faults, Contains(HasSubstr("the boards cover 20 % of the image")));
+}
+
+TEST(Judge, WarnsWhereCornersAreNotCovered) {
+  const Board board;
+  const StereoFit fit =
+      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  const Verdict verdict = judge(fit, 0.3);
+  EXPECT_THAT(verdict.faults, IsEmpty());
+  EXPECT_THAT(verdict.warnings, Contains(HasSubstr("the boards cover 30 % of the image")));
 }
 
 TEST(Advise, AsksForNothingMoreWhenViewsAreVaried) {

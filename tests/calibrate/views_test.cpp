@@ -15,6 +15,24 @@ namespace {
 
 using ::testing::HasSubstr;
 
+TEST(ChessboardCorners, AreExactThoughTheBoardStandsAtASlant) {
+  const Board board;
+  const BoardPose pose{{0.5, 0.5, 0.0}, {-0.1, -0.06, 0.55}};
+  const BoardPoints truth = project_board(board, pose, true_cameras(), "slanted", 0.0).left;
+
+  std::optional<BoardPoints> found =
+      find_board(render_board(board, pose, true_cameras(), "slanted").left, board);
+
+  ASSERT_TRUE(found);
+  align_numbering(board, truth, *found);
+  double sum_of_squares = 0.0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const cv::Point2f error_px = found->pixels[i] - truth.pixels[i];
+    sum_of_squares += error_px.dot(error_px);
+  }
+  EXPECT_LT(std::sqrt(sum_of_squares / static_cast<double>(truth.pixels.size())), 0.07);
+}
+
 /// What becomes of pictures of one board pose that is carried about.
 class Views : public ::testing::Test {
  protected:
