@@ -13,6 +13,7 @@
 
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
+#include "common/lcm_io/module_status_codec.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -47,10 +48,8 @@ const std::string& url_of_network(const std::string& name, const config::CommonO
 }
 
 std::string summary(const module_status_t& status) {
-  // The age of a recording that is played says when it was made, not how fast the module is.
-  constexpr float kOldestLiveMs = 60'000.0F;
   std::array<char, 32> age = {"recorded data"};
-  if (status.latency_p50_ms < kOldestLiveMs)
+  if (status.latency_p50_ms < kOldestLive_ms)
     std::snprintf(age.data(), age.size(), "age p50 %.1f ms", status.latency_p50_ms);
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(),

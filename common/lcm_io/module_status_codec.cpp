@@ -27,7 +27,8 @@ double rate(float value) {
 }
 
 std::optional<double> latency(float value) {
-  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+  return std::isfinite(value) && value < kOldestLive_ms ? std::optional<double>(value)
+                                                        : std::nullopt;
 }
 
 }  // namespace

@@ -7,13 +7,17 @@
 
 namespace limbcast::lcm_io {
 
+/// An older age of the data says when a recording that is played was made, not how fast a module
+/// is [ms].
+inline constexpr float kOldestLive_ms = 60'000.0F;
+
 /// How a module fares, as it last told. Texts are safe to print: no control characters.
 struct ModuleStatus {
   std::int64_t utime = 0;  ///< moment of sending by the module's clock [us]
   std::string module, host, version, state;
   int pid = 0;
   double rate_in_hz = 0.0, rate_out_hz = 0.0;
-  std::optional<double> latency_p50_ms, latency_p99_ms;  ///< nothing: not told
+  std::optional<double> latency_p50_ms, latency_p99_ms;  ///< nothing: not told, or not of live data
   std::int64_t received = 0, published = 0;
   std::int64_t lost = 0, skipped = 0, malformed = 0;  ///< since the start of the module
   std::string last_error, note;

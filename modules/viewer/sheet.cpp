@@ -37,13 +37,10 @@ std::string degrees(float sigma_rad) {
 }
 
 void append_modules(const std::vector<ModuleFigures>& modules, std::vector<std::string>& lines) {
-  // The age of a recording that is played says when it was made, not how fast the module is.
-  constexpr double kOldestLive_ms = 60'000.0;
   for (const ModuleFigures& figures : modules) {
     std::string line = formatted("%.20s on %.16s: %.1f/s", figures.module.c_str(),
                                  figures.host.c_str(), figures.rate_out_hz);
-    if (figures.latency_p50_ms && *figures.latency_p50_ms < kOldestLive_ms)
-      line += formatted(", latency %.0f ms", *figures.latency_p50_ms);
+    if (figures.latency_p50_ms) line += formatted(", latency %.0f ms", *figures.latency_p50_ms);
     lines.push_back(line);
   }
 }

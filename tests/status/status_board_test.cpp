@@ -103,5 +103,14 @@ TEST(ModuleStatusCodec, RefusesNonsenseAndReplacesControlCharacters) {
   EXPECT_THROW(lcm_io::from_message(message), lcm_io::MessageError);
 }
 
+TEST(ModuleStatusCodec, TellsNoLatencyWhereARecordingIsPlayed) {
+  module_status_t message{};
+  message.module = "segmenter";
+  message.latency_p50_ms = 129.0F;
+  message.latency_p99_ms = 29'718'712'320.0F;
+  EXPECT_EQ(lcm_io::from_message(message).latency_p50_ms, 129.0);
+  EXPECT_FALSE(lcm_io::from_message(message).latency_p99_ms);
+}
+
 }  // namespace
 }  // namespace limbcast::status

@@ -29,8 +29,8 @@ final class StatusView implements MessageView<module_status_t> {
     STATE("state", 60, row -> row.state),
     RATE_IN("in/s", 45, row -> number(row.status.rate_in_hz, 1)),
     RATE_OUT("out/s", 45, row -> number(row.status.rate_out_hz, 1)),
-    LATENCY_P50("p50 ms", 60, row -> number(row.status.latency_p50_ms, 0)),
-    LATENCY_P99("p99 ms", 60, row -> number(row.status.latency_p99_ms, 0)),
+    LATENCY_P50("p50 ms", 60, row -> latency(row.status.latency_p50_ms)),
+    LATENCY_P99("p99 ms", 60, row -> latency(row.status.latency_p99_ms)),
     LOST("lost", 45, row -> Long.toString(row.status.num_lost)),
     SKIPPED("skipped", 60, row -> Long.toString(row.status.num_skipped)),
     MALFORMED("malformed", 78, row -> Long.toString(row.status.num_malformed)),
@@ -87,6 +87,12 @@ final class StatusView implements MessageView<module_status_t> {
 
   private static double now() {
     return System.nanoTime() / NANOSECONDS;
+  }
+
+  /** An older age says when a recording that is played was made, not how fast the module is. */
+  private static String latency(double milliseconds) {
+    final double oldestLiveMs = 60_000;
+    return number(milliseconds < oldestLiveMs ? milliseconds : Double.NaN, 0);
   }
 
   private static String number(double value, int digits) {
