@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
+
+#include "modules/pose_fitter/refined/assessment.hpp"
+#include "tests/pose_fitter/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -19,7 +23,8 @@ class Confidence : public ::testing::Test {
     evidence_.legs_share = 0.4;
     evidence_.sigma_m.fill(0.01);
     evidence_.in_sight.fill(true);
-    evidence_.arms.fill({/*support=*/15.0, /*gap=*/3.0, /*bend_rad=*/0.1, /*sigma_rad=*/0.03});
+    evidence_.arms.fill({/*support=*/15.0, /*gap=*/8.0, /*bend_rad=*/0.1, /*sigma_rad=*/0.03,
+                         /*forwards=*/0.7, /*outwards=*/0.7});
   }
   Real of_direction() const { return direction_confidence(body_, evidence_.arms[0], evidence_); }
 
@@ -45,6 +50,23 @@ TEST_F(Confidence, OfADirectionTakesTheSameGapForMoreWithAChild) {
   EXPECT_GT(of_direction(), before);
 }
 
+TEST_F(Confidence, OfADirectionFallsWhereTheArmIsBehindTheBodyOrAcrossIt) {
+  const Real before = of_direction();
+  evidence_.arms[0].forwards = -0.7;
+  const Real behind = of_direction();
+  EXPECT_LT(behind, before);
+  evidence_.arms[0].forwards = 0.7;
+  evidence_.arms[0].outwards = -0.7;
+  EXPECT_LT(of_direction(), before);
+}
+
+TEST_F(Confidence, OfADirectionIsAlikeForTheSideAndTheFront) {
+  evidence_.arms[0].outwards = 1.0;
+  const Real wide = of_direction();
+  evidence_.arms[0].outwards = 0.0;
+  EXPECT_EQ(of_direction(), wide);
+}
+
 TEST_F(Confidence, OfPairedJointsAloneFallsWhereTheBodyMayFaceTheOtherWay) {
   const Real shoulder = joint_confidence(evidence_, kShoulder),
              pelvis = joint_confidence(evidence_, kPelvis);
@@ -59,6 +81,45 @@ TEST_F(Confidence, OfAWristFallsWithTheGapOfItsOwnArm) {
   evidence_.arms[1].gap = 0.1;
   EXPECT_EQ(joint_confidence(evidence_, kWrist), left);
   EXPECT_LT(joint_confidence(evidence_, kWrist + 1), right);
+}
+
+/// Both arms raised, the left one more.
+class ToldDirections : public Confidence {
+ protected:
+  ToldDirections() {
+    body_ = testing::standing_body(3.0, 0.0);
+    testing::point_with(body_, 0, {0.7, -0.3, -0.7});
+    testing::point_with(body_, 1, {-0.7, 0.1, -0.7});
+    const auto observation = observe(testing::seen(body_), testing::stamp(), RefinedParams{});
+    if (observation) observation_ = *observation;
+  }
+  std::vector<Side> sides() const {
+    std::vector<Side> sides;
+    const auto pose = assess(body_, evidence_, observation_);
+    if (!pose) return sides;
+    for (const Pointing& pointing : pose->pointing) sides.push_back(pointing.side);
+    return sides;
+  }
+
+  Observation observation_;
+};
+
+TEST_F(ToldDirections, AreOfBothArmsWhereBothAreSure) {
+  EXPECT_EQ(sides(), (std::vector<Side>{Side::kLeft, Side::kRight}));
+}
+
+TEST_F(ToldDirections, AreNoneBesideAnUnsureArmThatIsMoreRaised) {
+  evidence_.arms[0] = {/*support=*/15.0, /*gap=*/0.0,
+                       /*bend_rad=*/0.1, /*sigma_rad=*/0.3,
+                       /*forwards=*/0.0, /*outwards=*/1.0};
+  EXPECT_TRUE(sides().empty());
+}
+
+TEST_F(ToldDirections, IncludeTheOtherArmWhereTheMoreRaisedOneIsSurelyWrong) {
+  evidence_.arms[0] = {/*support=*/0.0,   /*gap=*/0.0,
+                       /*bend_rad=*/0.1,  /*sigma_rad=*/0.5,
+                       /*forwards=*/-0.7, /*outwards=*/-0.7};
+  EXPECT_EQ(sides(), std::vector<Side>{Side::kRight});
 }
 
 TEST_F(Confidence, OfAPersonFallsWithADoubtfulHeadAndAnOddPosture) {

@@ -9,6 +9,8 @@ namespace {
 constexpr Real kLeastJointConfidence = 0.08;
 /// A direction less sure than this is not told.
 constexpr Real kLeastPointingConfidence = 0.8;
+/// An arm less sure than this is where the body's arm is not.
+constexpr Real kLeastArmConfidence = 0.1;
 /// A body less sure than this is no person.
 constexpr Real kLeastPersonConfidence = 0.5;
 
@@ -28,6 +30,7 @@ std::optional<BodyPose> assess(const BodyState& body, const Evidence& evidence,
     const ArmEvidence& arm = evidence.arms[pointing.side == Side::kLeft ? 0 : 1];
     pointing.confidence = static_cast<float>(direction_confidence(body, arm, evidence));
     pointing.sigma_rad = static_cast<float>(spread_scale() * arm.sigma_rad);
+    if (pointing.confidence < kLeastArmConfidence) continue;
     // Beside an unsure arm that is straighter and more raised, the other is not the one that
     // points.
     if (pointing.confidence < kLeastPointingConfidence) break;

@@ -50,7 +50,8 @@ DirectionFeatures direction_features(const BodyState& body, const ArmEvidence& a
   DirectionFeatures features;
   features << 1.0, std::clamp(arm.gap * size * size, 0.0, kMostGap), strength(arm.support),
       std::log(std::max(kLeastSigmaDeg, arm.sigma_rad * kDegreesPerRadian<Real>)), arm.bend_rad,
-      odd_posture(evidence), std::min(1.0, surface_misfit(evidence));
+      odd_posture(evidence), std::min(1.0, surface_misfit(evidence)), arm.forwards,
+      std::max(0.0, -arm.outwards);
   return features;
 }
 

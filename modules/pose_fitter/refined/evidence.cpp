@@ -165,6 +165,9 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
     arm.bend_rad = angle(body.points[kElbow + side] - body.points[kShoulder + side],
                          body.points[kWrist + side] - body.points[kElbow + side]);
     arm.sigma_rad = axis_sigma(body, covariance, side);
+    const Vec3 axis = arm_axis(body, side);
+    arm.forwards = axis.dot(body.front());
+    arm.outwards = axis.dot(body.rotation.col(0)) * side_sign(side);
     arm.support = surface_cost_without(cones, stage, kAllParts & ~arm_bit(side),
                                        solver.params().robust_sigmas) -
                   terms.surface;

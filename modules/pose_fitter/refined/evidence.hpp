@@ -12,6 +12,8 @@ struct ArmEvidence {
   Real gap = 0.0;        ///< cost that the best body with this arm in another direction would add
   Real bend_rad = 0.0;   ///< upper arm against forearm
   Real sigma_rad = 0.0;  ///< of the arm axis, from the posterior covariance
+  Real forwards = 0.0;   ///< cosine of the arm axis and the body's front
+  Real outwards = 0.0;   ///< cosine of the arm axis and the body's side of this arm
 };
 
 /// What speaks for a fitted body.
