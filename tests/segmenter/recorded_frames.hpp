@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <map>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -35,6 +36,12 @@ struct LoadedFrame {
   cv::Mat mask;   ///< person's index at each pixel; empty where there is none
   std::vector<TruePerson> persons;
   bool labelled = false;
+
+  /// Shows somebody who is kept for checking: not to be trained on.
+  bool for_checking() const {
+    return std::any_of(persons.begin(), persons.end(),
+                       [](const TruePerson& person) { return person.for_checking(); });
+  }
 };
 
 /// Depth of a stereo pair.

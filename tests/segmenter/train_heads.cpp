@@ -206,13 +206,6 @@ void report(const char* what, const Network& network, const std::vector<Example>
   std::fflush(stdout);
 }
 
-bool for_checking(const LoadedFrame& frame) {
-  for (const TruePerson& person : frame.persons) {
-    if (person.for_checking()) return true;
-  }
-  return false;
-}
-
 std::vector<Scene> load_scenes(const std::vector<std::string>& folders, const Params& params) {
   constexpr int kMostReach_px = 6;  // of the thinned lattice: 5 cm at 2.3 m
   Random random(11);
@@ -223,7 +216,7 @@ std::vector<Scene> load_scenes(const std::vector<std::string>& folders, const Pa
       // Of the recorded rooms without people every second one is for checking.
       if (folder.find("stereo_dev/nohuman") != std::string::npos && i % 2 == 1) continue;
       const LoadedFrame frame = reader.read(reader.paths()[i]);
-      if (!frame.labelled || for_checking(frame)) continue;
+      if (!frame.labelled || frame.for_checking()) continue;
       scenes.push_back(make_scene(frame, params));
       // Neighbouring frames of a recording look alike, so they go to one fold.
       scenes.back().fold = i / 8 % 2;

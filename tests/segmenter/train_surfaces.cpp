@@ -4,40 +4,26 @@
 // checking. train.sh makes the simulated folders and runs it on all that it was trained on.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <opencv2/imgproc.hpp>
+#include <cstdint>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "modules/segmenter/joint_growing.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
 #include "modules/segmenter/surfaces.hpp"
-#include "tests/segmenter/network_training.hpp"
-#include "tests/segmenter/recorded_frames.hpp"
+#include "tests/segmenter/point_training.hpp"
 
 namespace {
 
 using namespace limbcast;
 using namespace limbcast::segmenter;
 
-/// Sensors' silhouettes are wider than the true masks by up to this: not trained on [px].
-constexpr int kUnsureBand_px = 4;
 /// Points taken of the bodies and of other things in a frame.
 constexpr std::size_t kBodyPoints = 150, kOtherPoints = 250;
-/// Eight neighbouring frames go to one block; of four blocks the last tells how good it became.
-constexpr std::size_t kBlock = 8, kBlocks = 4;
 /// What only one camera of a pair sees beside the edge, as disparity at 1 m [lattice px]: of a
 /// camera with a baseline of 12 cm.
 constexpr float kStripPxM = 31.0F;
-
-bool for_checking(const LoadedFrame& frame) {
-  return std::any_of(frame.persons.begin(), frame.persons.end(),
-                     [](const TruePerson& person) { return person.for_checking(); });
-}
 
 /// The lattice without the columns left of `from` and right of `to`, and without the strip beside
 /// its left edge that a pair does not measure.
@@ -61,43 +47,31 @@ Lattice cut_to_columns(const Lattice& whole, int from, int to) {
 }
 
 /// Points on other things and on bodies, of surfaces that are as large as what may be a body.
-std::array<std::vector<std::uint32_t>, 2> sorted_points(const LoadedFrame& frame,
-                                                        const Lattice& lattice,
-                                                        const HiddenHeadParams& params) {
-  const cv::Mat1b body = frame.mask > 0;
-  cv::Mat1b wide;
-  constexpr int kSize_px = 2 * kUnsureBand_px + 1;
-  cv::dilate(body, wide, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kSize_px, kSize_px}));
+SortedPoints sorted_points(const LoadedFrame& frame, const Lattice& lattice,
+                           const HiddenHeadParams& params) {
+  const PointSorter sorter(frame);
   const Surfaces surfaces = find_surfaces(lattice, params.surface);
-  std::array<std::vector<std::uint32_t>, 2> points;
+  SortedPoints all;
   for (std::uint32_t i = 0; i < lattice.size(); ++i) {
-    const std::int32_t k = surfaces.of_point[i];
-    if (k < 0) continue;
-    const int pixel = static_cast<int>(lattice.source[i]);
-    const Surface& surface = surfaces.all[static_cast<std::size_t>(k)];
-    const bool candidate = surface.area_m2 >= params.min_area_m2 &&
-                           surface.area_m2 <= params.max_area_m2 &&
-                           surface.extent_m <= params.max_extent_m;
-    if (body(pixel) != 0)
-      points[1].push_back(i);
-    else if (wide(pixel) == 0 && candidate)
-      points[0].push_back(i);
+    if (surfaces.of_point[i] >= 0) sorter.add(lattice, i, all);
   }
-  return points;
+  const auto is_too_small_or_large = [&](std::uint32_t point) {
+    const Surface& surface = surfaces.all[static_cast<std::size_t>(surfaces.of_point[point])];
+    return surface.area_m2 < params.min_area_m2 || surface.area_m2 > params.max_area_m2 ||
+           surface.extent_m > params.max_extent_m;
+  };
+  all[0].erase(std::remove_if(all[0].begin(), all[0].end(), is_too_small_or_large), all[0].end());
+  return all;
 }
 
 void add_examples(const LoadedFrame& frame, const Lattice& lattice, const Params& params,
                   std::mt19937& random, std::vector<Example>& examples) {
-  auto sorted = sorted_points(frame, lattice, params.hidden_heads);
-  for (const bool positive : {false, true}) {
-    std::vector<std::uint32_t>& points = sorted[positive ? 1 : 0];
-    const std::size_t count = std::min(positive ? kBodyPoints : kOtherPoints, points.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      std::swap(points[k], points[k + random() % (points.size() - k)]);
-      const SurfaceInput input = surface_input(lattice, points[k], random() % 2 == 0);
-      examples.push_back({{input.begin(), input.end()}, positive});
-    }
-  }
+  SortedPoints sorted = sorted_points(frame, lattice, params.hidden_heads);
+  const auto input_of = [&](std::uint32_t point, bool mirrored) -> std::vector<float> {
+    const SurfaceInput input = surface_input(lattice, point, mirrored);
+    return {input.begin(), input.end()};
+  };
+  add_drawn_points(sorted, kBodyPoints, kOtherPoints, input_of, random, examples);
 }
 
 /// The frame as it is, and cut through the middle of what it shows, left and right.
@@ -119,31 +93,5 @@ void add_views(const LoadedFrame& frame, const Params& params, std::mt19937& ran
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: limbcast-train-surfaces OUT.inc FOLDER...\n");
-    return 2;
-  }
-  const Params params;
-  std::mt19937 random(7);
-  std::vector<Example> trained_on, checked_on;
-  for (int k = 2; k < argc; ++k) {
-    const FrameReader reader(argv[k], DepthFrom::kReconstructor);
-    for (std::size_t i = 0; i < reader.paths().size(); ++i) {
-      const LoadedFrame frame = reader.read(reader.paths()[i]);
-      if (frame.mask.empty() || !frame.cloud.organized() || for_checking(frame)) continue;
-      const bool check = i / kBlock % kBlocks == kBlocks - 1;
-      add_views(frame, params, random, check ? checked_on : trained_on);
-    }
-    std::printf("%s: %zu examples so far\n", argv[k], trained_on.size());
-    std::fflush(stdout);
-  }
-  TrainingParams training;
-  training.hidden = 32;
-  training.epochs = 12;
-  training.decay = 0.01F;
-  const Network network = train(trained_on, training);
-  print_decisions("trained on", network, trained_on);
-  print_decisions("not trained on", network, checked_on);
-  write_networks({{"kSurfaceNetwork", network}}, argv[1]);
-  return 0;
+  return train_on_points(argc, argv, {"limbcast-train-surfaces", "kSurfaceNetwork", 12, add_views});
 }
