@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
 
 #include "common/camera/jpeg.hpp"
 #include "common/input_error.hpp"
@@ -122,9 +123,11 @@ EncodedImage encode_jpeg(const cv::Mat& image, int quality) {
 }
 
 EncodedImage encode_png(const cv::Mat& image) {
-  // Level 1: on depth images half the time of the default for 5 % more bytes.
+  // On depth images half the time of the default for 5 % more bytes.
+  constexpr int kFastCompression = 1;
   EncodedImage coded = describe(image, ImageFormat::kPng);
-  cv::imencode(".png", image, coded.bytes, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  if (!cv::imencode(".png", image, coded.bytes, {cv::IMWRITE_PNG_COMPRESSION, kFastCompression}))
+    throw std::runtime_error("image cannot be coded as PNG");
   return coded;
 }
 

@@ -1,9 +1,9 @@
 #include "common/lcm_io/image_codec.hpp"
 
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <vector>
 
+#include "common/camera/encoded_image.hpp"
 #include "common/camera/jpeg.hpp"
 #include "common/lcm_io/message_error.hpp"
 
@@ -59,11 +59,7 @@ image_t to_jpeg_message(const cv::Mat& image, int quality) {
 
 image_t to_png_message(const cv::Mat& image) {
   if (image.empty()) return {};
-  constexpr int kFastCompression = 1;
-  std::vector<std::uint8_t> data;
-  if (!cv::imencode(".png", image, data, {cv::IMWRITE_PNG_COMPRESSION, kFastCompression}))
-    throw std::runtime_error("image cannot be coded as PNG");
-  return message_of(image, image_t::PNG, std::move(data));
+  return message_of(image, image_t::PNG, encode_png(image).bytes);
 }
 
 image_t to_raw_message(const cv::Mat& image) {
