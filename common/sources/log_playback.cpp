@@ -10,6 +10,7 @@
 #include <limbcast/depth_images_t.hpp>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
+#include <map>
 #include <set>
 
 #include "common/config/log.hpp"
@@ -73,8 +74,16 @@ class LogPlayer {
       truth.stamp.sequence += offset.sequence;
       module_.publish(channels_.truth, truth);
     } else if (event.channel == channels_.calibration) {
-      module_.publish(channels_.calibration, lcm_io::decode<stereo_calibration_t>(event.data));
+      const auto calibration = lcm_io::decode<stereo_calibration_t>(event.data);
+      calibrations_[calibration.sensor] = calibration;
+      send_calibrations();
     }
+  }
+
+  void send_calibrations() {
+    for (const auto& [sensor, calibration] : calibrations_)
+      module_.publish(channels_.calibration, calibration);
+    calibrations_sent_at_ = Pacer::Clock::now();
   }
 
   void send_frame(Message frame, const Offset& offset, Round& round) {
@@ -83,6 +92,7 @@ class LogPlayer {
     round.last_utime = frame.stamp.utime;
     round.last_sequence = frame.stamp.sequence;
     wait_until(pacer_.due(frame.stamp.utime + offset.utime, Pacer::Clock::now()), module_);
+    if (Pacer::Clock::now() - calibrations_sent_at_ >= kCalibrationPeriod) send_calibrations();
     sent_utime_ = options_.restamp ? lcm_io::utime_now() : frame.stamp.utime + offset.utime;
     frame.stamp.utime = sent_utime_;
     frame.stamp.sequence += offset.sequence;
@@ -93,6 +103,8 @@ class LogPlayer {
   const PlaybackChannels& channels_;
   lcm_io::Module& module_;
   Pacer pacer_;
+  std::map<std::string, stereo_calibration_t> calibrations_;  ///< the last of each sensor
+  Pacer::Clock::time_point calibrations_sent_at_;
   std::int64_t recorded_utime_ = 0, sent_utime_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +13,9 @@
 #include "common/sources/pacer.hpp"
 
 namespace limbcast {
+
+/// How often a camera's calibration is sent, for the modules that start after it.
+inline constexpr std::chrono::seconds kCalibrationPeriod{1};
 
 /// Options that every process with a source of image pairs has.
 struct SourceProcessOptions {

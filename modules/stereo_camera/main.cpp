@@ -11,8 +11,6 @@
 namespace limbcast::stereo_camera {
 namespace {
 
-constexpr std::int64_t kCalibrationPeriod_us = 1'000'000;
-
 /// The order of the cameras does not change while the program runs.
 constexpr std::int64_t kFramesToCheck = 3;
 
@@ -85,7 +83,8 @@ void run(const Options& options, const config::CommonOptions& common) {
   OrderCheck order(calibration);
   const auto send = [&](Outlet& outlet, const FramePair& frame) {
     const std::int64_t now = outlet.now(frame.stamp.utime);
-    if (!calibration_sent_at || now - *calibration_sent_at >= kCalibrationPeriod_us) {
+    if (!calibration_sent_at ||
+        now - *calibration_sent_at >= std::chrono::microseconds(kCalibrationPeriod).count()) {
       outlet.send(frame.stamp.utime, options.calibration_channel,
                   lcm_io::to_message(calibration, now, sensor));
       calibration_sent_at = now;

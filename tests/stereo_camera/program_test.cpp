@@ -133,19 +133,26 @@ class PublishingStereoCamera : public StereoCameraProgram {
     bus_.subscribe<stereo_calibration_t>("STEREO_CALIBRATION", Keep::kAll,
                                          [this](const stereo_calibration_t&) { ++calibrations_; });
     bus_.subscribe<module_status_t>("MODULE_STATUS", Keep::kAll,
-                                    [this](const module_status_t& message) { status_ = message; });
+                                    [this](const module_status_t& message) {
+                                      status_ = message;
+                                      ++statuses_;
+                                    });
   }
   void start(const std::vector<std::string>& options) {
     std::vector<std::string> all = {"--calibration", calibration_, "--lcm-url", url_};
     all.insert(all.end(), options.begin(), options.end());
     camera_.emplace(command(all), folder_ + "/output.txt");
   }
+  /// Fails when the program ends, or says again and again how it is without anything else coming.
   template <class Done>
   ::testing::AssertionResult wait_for(Done done) {
+    constexpr int kStatusesInVain = 60;
+    const int last_status = statuses_ + kStatusesInVain;
     while (!done()) {
       bus_.handle(kLook);
-      if (!done() && !camera_->running()) {
-        return ::testing::AssertionFailure() << "ended: " << camera_->output();
+      if (!done() && (!camera_->running() || statuses_ > last_status)) {
+        return ::testing::AssertionFailure()
+               << (camera_->running() ? "in vain: " : "ended: ") << camera_->output();
       }
     }
     return ::testing::AssertionSuccess();
@@ -158,7 +165,7 @@ class PublishingStereoCamera : public StereoCameraProgram {
   std::string url_ = private_lcm_url();
   lcm_io::Bus bus_{url_};
   std::vector<stereo_images_t> images_;
-  int calibrations_ = 0;
+  int calibrations_ = 0, statuses_ = 0;
   std::optional<module_status_t> status_;
   std::optional<ChildProcess> camera_;
 };
@@ -186,6 +193,16 @@ TEST_F(PublishingStereoCamera, StampsWithTheMomentOfSendingWhereAskedTo) {
   EXPECT_EQ(stop(), 0);
   // The recording says 1000 s after 1970.
   EXPECT_GT(images_.front().stamp.utime, 1'000'000'000'000'000);
+}
+
+TEST_F(PublishingStereoCamera, RepeatsTheCalibrationOfALogForModulesThatStartLater) {
+  write_pairs(folder_, 4, 100'000);
+  ASSERT_EQ(write_log({"--source", folder_}).exit_code, 0);
+  // The log has a calibration at its begin, and lasts two seconds at this rate.
+  start({"--source", log_, "--rate", "2"});
+  EXPECT_EQ(camera_->wait(), 0) << camera_->output();
+  while (bus_.handle(kLook)) continue;
+  EXPECT_GE(calibrations_, 2);
 }
 
 TEST_F(PublishingStereoCamera, EndsByItselfWithARecording) {
