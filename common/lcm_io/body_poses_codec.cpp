@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/lcm_io/message_error.hpp"
+#include "common/lcm_io/plausible.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
 
 namespace limbcast::lcm_io {
@@ -15,8 +16,17 @@ void write_vector(const Eigen::Vector3f& vector, float* out) {
 
 Eigen::Vector3f read_vector(const float* in) {
   const Eigen::Vector3f vector(in[0], in[1], in[2]);
-  require(vector.allFinite(), "body poses: a coordinate is not finite");
+  require(is_plausible(vector), "body poses: a coordinate is not finite or out of range");
   return vector;
+}
+
+/// A unit vector; zero where the direction is not known.
+Eigen::Vector3f read_direction(const float* in) {
+  constexpr float kUnitTolerance = 0.01F;
+  const Eigen::Vector3f direction = read_vector(in);
+  require(direction.isZero() || std::abs(direction.norm() - 1.0F) < kUnitTolerance,
+          "body poses: a direction is no unit vector");
+  return direction;
 }
 
 joint_t to_message(const JointEstimate& joint, int joint_index) {
@@ -62,9 +72,9 @@ Pointing from_message(const pointing_t& message) {
           "body poses: unknown side");
   Pointing pointing;
   pointing.side = message.side == pointing_t::LEFT ? Side::kLeft : Side::kRight;
-  pointing.direction = read_vector(message.direction);
-  pointing.forearm = read_vector(message.forearm);
-  pointing.head_hand = read_vector(message.head_hand);
+  pointing.direction = read_direction(message.direction);
+  pointing.forearm = read_direction(message.forearm);
+  pointing.head_hand = read_direction(message.head_hand);
   require(std::isfinite(message.sigma_rad) && std::isfinite(message.confidence),
           "body poses: uncertainty of a direction is not finite");
   pointing.sigma_rad = message.sigma_rad;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/message_error.hpp"
+#include "common/lcm_io/plausible.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -53,20 +55,20 @@ lens_t to_message(const LensCalibration& lens) {
 }
 
 LensCalibration from_message(const lens_t& message) {
-  require(message.width > 0 && message.height > 0, "calibration: image size is not positive");
-  require(std::isfinite(message.fx) && message.fx > 0.0 && std::isfinite(message.fy) &&
-              message.fy > 0.0,
-          "calibration: focal length is not positive");
-  require(std::isfinite(message.cx) && std::isfinite(message.cy),
-          "calibration: principal point is not finite");
+  require(message.width > 0 && message.height > 0 && message.width <= kMaxImageSide &&
+              message.height <= kMaxImageSide,
+          "calibration: image size is out of range");
+  const PinholeCamera camera{message.width, message.height, message.fx,
+                             message.fy,    message.cx,     message.cy};
+  require(is_plausible(camera),
+          "calibration: focal length or principal point is none of a robot's camera");
   require(std::find(kDistortionCounts.begin(), kDistortionCounts.end(), message.num_distortion) !=
               kDistortionCounts.end(),
           "calibration: number of distortion coefficients is none of OpenCV's");
   require(std::all_of(message.distortion.begin(), message.distortion.end(),
                       [](double k) { return std::isfinite(k); }),
           "calibration: a distortion coefficient is not finite");
-  return {{message.width, message.height, message.fx, message.fy, message.cx, message.cy},
-          message.distortion};
+  return {camera, message.distortion};
 }
 
 mounting_t to_message(const Mounting& mounting) {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <new>
-#include <stdexcept>
 #include <vector>
 
 #include "common/lcm_io/message_error.hpp"
@@ -26,8 +25,6 @@ Message decode(const std::vector<std::uint8_t>& bytes) {
   try {
     require(message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0,
             "not a message of this type, or truncated");
-  } catch (const std::length_error&) {
-    throw MessageError("claims a negative number of elements");
   } catch (const std::bad_alloc&) {
     throw MessageError("claims more elements than memory holds");
   }

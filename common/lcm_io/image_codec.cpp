@@ -10,9 +10,6 @@
 namespace limbcast::lcm_io {
 namespace {
 
-/// Larger than any camera that fits a robot; guards against nonsense in a message [px].
-constexpr int kMaxSide = 8192;
-
 image_t message_of(const cv::Mat& image, std::int8_t encoding, std::vector<std::uint8_t> data) {
   image_t message{};
   message.width = image.cols;
@@ -82,8 +79,8 @@ image_t to_message(const EncodedImage& image) {
 
 cv::Mat from_message(const image_t& message) {
   if (message.width == 0 && message.height == 0) return {};
-  require(message.width > 0 && message.height > 0 && message.width <= kMaxSide &&
-              message.height <= kMaxSide,
+  require(message.width > 0 && message.height > 0 && message.width <= kMaxImageSide &&
+              message.height <= kMaxImageSide,
           "image: size is out of range");
   require(!message.data.empty(), "image: no data");
   switch (message.encoding) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "common/bounded_map.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/bus.hpp"
 #include "common/lcm_io/status_counter.hpp"
@@ -60,7 +61,7 @@ class Module {
   /// what was lost on the way from what this module or one before it left out.
   template <class Message>
   void publish_frame(const std::string& channel, Message message) {
-    message.stamp.sequence = next_sequence_[{channel, message.stamp.sensor}]++;
+    message.stamp.sequence = next_sequence_[channel].get(message.stamp.sensor)++;
     publish(channel, message);
     counter_.published(message.stamp.utime, utime_now());
   }
@@ -99,7 +100,7 @@ class Module {
   StatusCounter counter_;
   std::string note_;
   std::string last_logged_problem_;
-  std::map<std::pair<std::string, std::string>, std::int64_t> next_sequence_;  ///< channel, sensor
+  std::map<std::string, BoundedMap<std::int64_t>> next_sequence_;  ///< channel, sensor
   std::chrono::steady_clock::time_point last_status_;
 };
 

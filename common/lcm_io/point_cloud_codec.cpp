@@ -1,5 +1,6 @@
 #include "common/lcm_io/point_cloud_codec.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
@@ -7,6 +8,7 @@
 #include "common/lcm_io/compression.hpp"
 #include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/message_error.hpp"
+#include "common/lcm_io/plausible.hpp"
 #include "common/lcm_io/quantization.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
 
@@ -36,13 +38,11 @@ std::vector<Bgr> colors_of(const cv::Mat& image, const Cloud& cloud) {
 }
 
 void read_camera_layout(const point_cloud_t& message, Cloud& cloud) {
-  require(std::isfinite(message.fx) && message.fx > 0.0 && std::isfinite(message.fy) &&
-              message.fy > 0.0 && std::isfinite(message.cx) && std::isfinite(message.cy),
-          "point cloud: camera is not sound");
-  require(std::isfinite(message.inverse_depth_scale) && message.inverse_depth_scale > 0.0,
-          "point cloud: 'inverse_depth_scale' is not positive");
   cloud.camera =
       PinholeCamera{message.width, message.height, message.fx, message.fy, message.cx, message.cy};
+  require(is_plausible(*cloud.camera), "point cloud: camera is not sound");
+  require(std::isfinite(message.inverse_depth_scale) && message.inverse_depth_scale > 0.0,
+          "point cloud: 'inverse_depth_scale' is not positive");
   const std::vector<float> depths_m = dequantize_depths(
       decode_lattice(message.points, message.width, message.height), message.inverse_depth_scale);
   cloud.points_m.resize(depths_m.size());
@@ -132,6 +132,9 @@ Cloud from_message(const point_cloud_t& message) {
     read_camera_layout(message, cloud);
   else
     read_list_layout(message, cloud);
+  require(std::all_of(cloud.points_m.begin(), cloud.points_m.end(),
+                      [](const Eigen::Vector3f& point_m) { return is_plausible(point_m); }),
+          "point cloud: a point is farther than any sensor sees");
   // A list's colours are as wide as the list, which is more than an image may be: they are read as
   // bytes.
   if (message.layout == point_cloud_t::LIST && !message.color.data.empty()) {

@@ -1,9 +1,11 @@
 #include "common/lcm_io/segments_codec.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/lcm_io/compression.hpp"
 #include "common/lcm_io/message_error.hpp"
+#include "common/lcm_io/plausible.hpp"
 #include "common/lcm_io/quantization.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
 
@@ -68,13 +70,16 @@ RangeImage from_message(const range_image_t& message) {
   require(message.width > 0 && message.height > 0 && message.width <= kMaxWindowSide &&
               message.height <= kMaxWindowSide,
           "segments: size of a window is out of range");
-  require(std::isfinite(message.fx) && message.fx > 0.0 && std::isfinite(message.fy) &&
-              message.fy > 0.0 && std::isfinite(message.cx) && std::isfinite(message.cy),
-          "segments: camera of a window is not sound");
   require(std::isfinite(message.inverse_depth_scale) && message.inverse_depth_scale > 0.0,
           "segments: 'inverse_depth_scale' is not positive");
   RangeImage image;
   image.camera = {message.width, message.height, message.fx, message.fy, message.cx, message.cy};
+  require(is_plausible(image.camera), "segments: camera of a window is not sound");
+  require(std::abs(static_cast<std::int64_t>(message.origin_u)) <= kMaxWindowSide &&
+              std::abs(static_cast<std::int64_t>(message.origin_v)) <= kMaxWindowSide &&
+              message.full_width >= 0 && message.full_width <= kMaxWindowSide &&
+              message.full_height >= 0 && message.full_height <= kMaxWindowSide,
+          "segments: place of a window is out of range");
   image.origin_u = message.origin_u;
   image.origin_v = message.origin_v;
   image.full_width = message.full_width;
@@ -87,6 +92,9 @@ RangeImage from_message(const range_image_t& message) {
       "segments: rotation of a window is none");
   image.depth_m = dequantize_depths(decode_lattice(message.depth, message.width, message.height),
                                     message.inverse_depth_scale);
+  require(std::all_of(image.depth_m.begin(), image.depth_m.end(),
+                      [](float depth_m) { return depth_m <= kFarthest_m; }),
+          "segments: a depth is farther than any sensor sees");
   read_labels(message, image);
   return image;
 }

@@ -17,8 +17,7 @@ float percentile(const std::vector<float>& sorted, double share) {
 }  // namespace
 
 bool StatusCounter::received(const std::string& sensor, std::int64_t sequence) {
-  const auto [known, is_new] = sequences_.try_emplace(sensor, Sequence{sequence, {}});
-  Sequence& numbers = known->second;
+  Sequence& numbers = sequences_.get(sensor);
   if (numbers.missing.erase(sequence) > 0) {
     --num_gaps_;
     ++num_late_;
@@ -26,9 +25,9 @@ bool StatusCounter::received(const std::string& sensor, std::int64_t sequence) {
   }
   ++num_received_;
   ++period_received_;
-  if (sequence > numbers.last) {
-    count_gap(numbers, sequence);
-  } else if (!is_new) {
+  if (numbers.last && sequence > *numbers.last) {
+    count_gap(numbers, *numbers.last, sequence);
+  } else {
     // A number that goes back but was not missed is a source that was started again, not a loss.
     numbers.missing.clear();
   }
@@ -36,7 +35,7 @@ bool StatusCounter::received(const std::string& sensor, std::int64_t sequence) {
   return true;
 }
 
-void StatusCounter::count_gap(Sequence& numbers, std::int64_t next) {
+void StatusCounter::count_gap(Sequence& numbers, std::int64_t last, std::int64_t next) {
   // Packets overtake one another within milliseconds; what is missing for longer is lost.
   constexpr std::uint64_t kLatestFrames = 16;
   // An hour's frames: who counts on from there is another source.
@@ -45,7 +44,7 @@ void StatusCounter::count_gap(Sequence& numbers, std::int64_t next) {
   const auto steps_back = [next](std::int64_t sequence) {
     return static_cast<std::uint64_t>(next) - static_cast<std::uint64_t>(sequence);
   };
-  const std::uint64_t step = steps_back(numbers.last);
+  const std::uint64_t step = steps_back(last);
   if (step > kMostLost) {
     numbers.missing.clear();
     return;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "common/bounded_map.hpp"
 
 namespace limbcast::lcm_io {
 
@@ -38,17 +40,17 @@ class StatusCounter {
 
  private:
   struct Sequence {
-    std::int64_t last;
+    std::optional<std::int64_t> last;
     std::set<std::int64_t> missing;  ///< of the last few: what may still come
   };
-  void count_gap(Sequence& sequence, std::int64_t next);
+  void count_gap(Sequence& sequence, std::int64_t last, std::int64_t next);
 
   std::int64_t num_received_ = 0, num_published_ = 0, num_gaps_ = 0, num_late_ = 0,
                num_malformed_ = 0;
   std::int64_t period_received_ = 0;
   bool period_failed_ = false;
   std::vector<float> period_latencies_ms_;
-  std::map<std::string, Sequence> sequences_;
+  BoundedMap<Sequence> sequences_;  ///< by sensor
   std::string last_error_;
 };
 

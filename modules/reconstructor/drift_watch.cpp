@@ -20,7 +20,7 @@ std::vector<double> measure(const StereoReconstructor& reconstructor, const ster
 
 void DriftWatch::look_at(const std::shared_ptr<const StereoReconstructor>& reconstructor,
                          const stereo_images_t& pair) {
-  Camera& camera = cameras_[pair.stamp.sensor];
+  Camera& camera = cameras_.get(pair.stamp.sensor);
   if (camera.reconstructor != reconstructor) camera = {reconstructor, DriftMonitor()};
   if (is_busy() || !camera.monitor.is_due(pair.stamp.utime)) return;
   measurement_ = std::async(std::launch::async, [reconstructor, pair] {
@@ -33,7 +33,7 @@ bool DriftWatch::is_busy() {
   if (!measurement_.valid()) return false;
   if (measurement_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return true;
   Measurement done = measurement_.get();
-  Camera& camera = cameras_[done.sensor];
+  Camera& camera = cameras_.get(done.sensor);
   if (camera.reconstructor == done.reconstructor)
     camera.monitor.add(done.utime, std::move(done.row_differences_px));
   return false;
@@ -41,15 +41,15 @@ bool DriftWatch::is_busy() {
 
 std::string DriftWatch::warning() const {
   std::string text;
-  for (const auto& [sensor, camera] : cameras_) {
+  cameras_.for_each([&text](const std::string& sensor, const Camera& camera) {
     const std::optional<double> drift_px = camera.monitor.drift_px();
-    if (!drift_px) continue;
+    if (!drift_px) return;
     text.append(text.empty() ? "" : "; ");
     text.append(formatted(
         "the calibration of '%s' has drifted: the rows of the two images differ by %.1f px; "
         "measure it with limbcast-calibrate check and calibrate again",
         sensor.c_str(), *drift_px));
-  }
+  });
   return text;
 }
 

@@ -2,11 +2,11 @@
 
 #include <future>
 #include <limbcast/stereo_images_t.hpp>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/bounded_map.hpp"
 #include "modules/reconstructor/drift.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
 
@@ -36,7 +36,7 @@ class DriftWatch {
   /// True while a pair is being measured.
   bool is_busy();
 
-  std::map<std::string, Camera> cameras_;
+  BoundedMap<Camera> cameras_;  ///< by sensor
   std::future<Measurement> measurement_;
 };
 

@@ -21,16 +21,17 @@ void Stage::on_calibration(stereo_calibration_t message) {
   message.utime = 0;  // sent once a second, but the same
   std::vector<std::uint8_t> bytes(message.getEncodedSize());
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  Camera& camera = cameras_[message.sensor];
-  if (camera.calibration == bytes) return;
-  camera.reconstructor = std::make_shared<const StereoReconstructor>(lcm_io::from_message(message),
-                                                                     options_.algorithm);
-  camera.calibration = std::move(bytes);
+  const Camera* known = cameras_.find(message.sensor);
+  auto reconstructor = known != nullptr && known->calibration == bytes
+                           ? known->reconstructor
+                           : std::make_shared<const StereoReconstructor>(
+                                 lcm_io::from_message(message), options_.algorithm);
+  cameras_.get(message.sensor) = {std::move(bytes), std::move(reconstructor)};
 }
 
 std::shared_ptr<const StereoReconstructor> Stage::find(const std::string& sensor) const {
-  const auto known = cameras_.find(sensor);
-  return known == cameras_.end() ? nullptr : known->second.reconstructor;
+  const Camera* known = cameras_.find(sensor);
+  return known == nullptr ? nullptr : known->reconstructor;
 }
 
 point_cloud_t Stage::process(const StereoReconstructor& reconstructor,

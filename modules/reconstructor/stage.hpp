@@ -5,11 +5,11 @@
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/bounded_map.hpp"
 #include "common/config/options.hpp"
 #include "modules/reconstructor/options.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
@@ -50,7 +50,7 @@ class Stage {
     std::shared_ptr<const StereoReconstructor> reconstructor;
   };
   StageOptions options_;
-  std::map<std::string, Camera> cameras_;
+  BoundedMap<Camera> cameras_;  ///< by sensor
 };
 
 }  // namespace limbcast::reconstructor

@@ -49,8 +49,7 @@ void declare(config::Section& section, StageOptions& options) {
 
 std::optional<body_poses_t> Stage::process(const body_poses_t& poses) {
   const BodyPoses measured = lcm_io::from_message(poses);
-  const auto tracked =
-      trackers_.try_emplace(measured.stamp.sensor, params_).first->second.track(measured);
+  const auto tracked = trackers_.get(measured.stamp.sensor, params_).track(measured);
   if (!tracked) return std::nullopt;
   return lcm_io::to_message(*tracked);
 }

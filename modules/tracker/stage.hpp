@@ -1,10 +1,10 @@
 #pragma once
 
 #include <limbcast/body_poses_t.hpp>
-#include <map>
 #include <optional>
 #include <string>
 
+#include "common/bounded_map.hpp"
 #include "common/config/options.hpp"
 #include "modules/tracker/tracker.hpp"
 
@@ -31,7 +31,7 @@ class Stage {
 
  private:
   TrackerParams params_;
-  std::map<std::string, Tracker> trackers_;  ///< by sensor
+  BoundedMap<Tracker> trackers_;  ///< by sensor
 };
 
 }  // namespace limbcast::tracker

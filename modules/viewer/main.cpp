@@ -6,11 +6,11 @@
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/segments_t.hpp>
-#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
 
+#include "common/bounded_map.hpp"
 #include "common/config/log.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/bus.hpp"
@@ -159,6 +159,9 @@ void view_log(const Options& options) {
         std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames drawn");
 }
 
+/// Whose figures are shown: more than run on all hosts of a robot.
+constexpr std::size_t kMostModules = 500;
+
 /// What comes over LCM, put together.
 class LiveFrames {
  public:
@@ -172,18 +175,22 @@ class LiveFrames {
     take<body_poses_t>(channels.truth, [this](auto truth) { assembler_.add_truth(truth); });
     take<module_status_t>(channels.status, [this](const lcm_io::ModuleStatus& status) {
       const ModuleFigures figures = figures_of(status);
-      modules_[figures.host + '\n' + figures.module] = figures;
+      modules_.get(figures.host + '\n' + figures.module) = figures;
     });
   }
 
   /// The newest complete frame of what has come; nothing where none is new.
   std::optional<ViewFrame> newest() {
-    while (bus_.handle(std::chrono::milliseconds(20))) {
+    // What has come, and no more: at many frames a second there is always a next message.
+    if (bus_.handle(std::chrono::milliseconds(20))) {
+      while (bus_.handle(std::chrono::milliseconds(0))) continue;
     }
     std::optional<ViewFrame> newest;
     while (auto frame = assembler_.next()) newest = std::move(frame);
     if (newest)
-      for (const auto& [name, figures] : modules_) newest->modules.push_back(figures);
+      modules_.for_each([&newest](const std::string& /*name*/, const ModuleFigures& figures) {
+        newest->modules.push_back(figures);
+      });
     return newest;
   }
 
@@ -198,7 +205,7 @@ class LiveFrames {
 
   lcm_io::Bus bus_;
   FrameAssembler assembler_;
-  std::map<std::string, ModuleFigures> modules_;
+  BoundedMap<ModuleFigures> modules_{kMostModules};
 };
 
 void view_live(const Options& options, const std::string& lcm_url) {

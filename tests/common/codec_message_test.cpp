@@ -97,9 +97,14 @@ body_poses_t body_poses_message() {
   pose.scale = 0.95F;
   pointing_t pointing{};
   pointing.side = pointing_t::RIGHT;
-  std::iota(pointing.direction, pointing.direction + 3, 1.0F);
-  std::iota(pointing.forearm, pointing.forearm + 3, 4.0F);
-  std::iota(pointing.head_hand, pointing.head_hand + 3, 7.0F);
+  const auto set = [](float (&direction)[3], float x, float y, float z) {
+    direction[0] = x;
+    direction[1] = y;
+    direction[2] = z;
+  };
+  set(pointing.direction, 0.36F, 0.48F, -0.8F);
+  set(pointing.forearm, -0.48F, 0.8F, 0.36F);
+  set(pointing.head_hand, 0.8F, -0.36F, 0.48F);
   pointing.sigma_rad = 0.05F;
   pointing.confidence = 0.8F;
   pose.pointing = {pointing};
@@ -209,6 +214,47 @@ TEST(CodecMessages, TakeNoMemoryForElementsThatTheyOnlyClaim) {
   bytes[bytes.size() - 4] = 1;
   EXPECT_LT(lens.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
   EXPECT_EQ(lens.distortion.size(), 0U);
+}
+
+/// The message with another value in one of its bytes does not decode.
+template <class Message>
+void expect_undecodable(const Message& message, std::size_t byte, std::uint8_t value) {
+  std::vector<std::uint8_t> bytes = bytes_of(message);
+  bytes[byte] = value;
+  Message decoded{};
+  EXPECT_LT(decoded.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+}
+
+TEST(CodecMessages, DoNotDecodeWhereACountIsNegative) {
+  const lens_t lens{};
+  constexpr std::uint8_t kSign = 0x80;
+  expect_undecodable(lens, bytes_of(lens).size() - sizeof(lens.num_distortion), kSign);
+}
+
+TEST(CodecMessages, DoNotDecodeWhereATextsLengthIsNegativeOrZero) {
+  stamp_t stamp{};
+  constexpr std::size_t kHashUtimeAndSequence = 3 * sizeof(std::int64_t);
+  // LCM takes one off for the end of the text: -2147483647 becomes the smallest number, and
+  // -2147483648 the largest.
+  for (const std::uint8_t sign : {0x80, 0xFF})
+    expect_undecodable(stamp, kHashUtimeAndSequence, sign);
+  // The length's last byte: 0 instead of 1.
+  expect_undecodable(stamp, kHashUtimeAndSequence + 3, 0);
+}
+
+TEST(CodecMessages, TakeNoMoreThanSixteenTimesTheirSizeInMemory) {
+  // As many joints' persons claimed as there are bytes: each would take hundreds of bytes.
+  body_poses_t poses{};
+  poses.num_persons = 1;
+  poses.persons.resize(1);
+  std::vector<std::uint8_t> bytes = bytes_of(poses);
+  const std::size_t one_person = body_pose_t{}.getEncodedSize() - sizeof(std::int64_t);
+  const std::size_t count = bytes.size() - one_person - sizeof(poses.num_persons);
+  bytes[count + 2] = 1;  // 257 persons, and enough bytes for that many bytes
+  ASSERT_GT(one_person, 257U);
+  body_poses_t decoded{};
+  EXPECT_LT(decoded.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  EXPECT_LE(decoded.persons.size() * sizeof(body_pose_t), 16 * bytes.size());
 }
 
 TEST(CodecMessages, KeepEveryFieldOfASegment) {
@@ -338,7 +384,9 @@ TEST(CodecRefusals, NameWhatIsWrongWithABodyPose) {
        {[](Poses& m) { m.persons[0].joints[2].position_m[1] = kNaN; }, "coordinate"},
        {[](Poses& m) { std::swap(m.persons[0].joints[2], m.persons[0].joints[3]); }, "name"},
        {[=](Poses& m) { pointing(m).side = 9; }, "unknown side"},
+       {[](Poses& m) { m.persons[0].joints[2].position_m[1] = 3e38F; }, "coordinate"},
        {[=](Poses& m) { pointing(m).forearm[0] = kNaN; }, "coordinate"},
+       {[=](Poses& m) { pointing(m).direction[0] = 2.0F; }, "no unit vector"},
        {[=](Poses& m) { pointing(m).sigma_rad = kNaN; }, "uncertainty of a direction"},
        {[=](Poses& m) { pointing(m).confidence = kNaN; }, "uncertainty of a direction"},
        {[](Poses& m) { m.persons[0].confidence = kNaN; }, "error is not finite"},
@@ -360,7 +408,11 @@ TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
        {[=](Message& m) { window(m).fy = -1.0; }, camera},
        {[=](Message& m) { window(m).cx = kNaN; }, camera},
        {[=](Message& m) { window(m).cy = kInfinity; }, camera},
+       {[=](Message& m) { window(m).fx = 1e30; }, camera},
+       {[=](Message& m) { window(m).origin_u = 2'000'000'000; }, "place of a window"},
+       {[=](Message& m) { window(m).full_height = -1; }, "place of a window"},
        {[=](Message& m) { window(m).inverse_depth_scale = 0.0; }, scale},
+       {[=](Message& m) { window(m).inverse_depth_scale = 1e12; }, "farther than any sensor sees"},
        {[=](Message& m) { window(m).inverse_depth_scale = kInfinity; }, scale},
        {[=](Message& m) { window(m).frame_from_image[8] = 0.1F; }, "rotation of a window"},
        {[](Message& m) { m.segments[0].seed_m[1] = kNaN; }, "seed is not finite"},
@@ -384,16 +436,21 @@ TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
 
 TEST(CodecRefusals, NameWhatIsWrongWithACalibration) {
   using Message = stereo_calibration_t;
-  const std::string size = "image size", focal = "focal length", rotation = "a rotation is none";
+  const std::string size = "image size", focal = "focal length or principal point",
+                    rotation = "a rotation is none";
   expect_refused<Message>(
       calibration_message(),
       {{[](Message& m) { m.left.width = 0; }, size},
        {[](Message& m) { m.right.height = -1; }, size},
+       {[](Message& m) { m.left.width = 100'000; }, size},
        {[](Message& m) { m.left.fx = 0.0; }, focal},
        {[](Message& m) { m.left.fy = 0.0; }, focal},
        {[](Message& m) { m.right.fy = kNaN; }, focal},
-       {[](Message& m) { m.left.cx = kNaN; }, "principal point"},
-       {[](Message& m) { m.left.cy = kInfinity; }, "principal point"},
+       {[](Message& m) { m.left.cx = kNaN; }, focal},
+       {[](Message& m) { m.left.cy = kInfinity; }, focal},
+       {[](Message& m) { m.left.cy = 1e9; }, focal},
+       {[](Message& m) { m.left.fx = 1e-3; }, focal},
+       {[](Message& m) { m.left.fy = 1e9; }, focal},
        {[](Message& m) { m.left.num_distortion = 3; }, "number of distortion coefficients"},
        {[](Message& m) { m.left.distortion[1] = kNaN; }, "distortion coefficient is not finite"},
        {[](Message& m) { m.R[0] = 2.0; }, rotation},
@@ -457,7 +514,9 @@ TEST(CodecRefusals, NameWhatIsWrongWithACloud) {
        {[](auto& m) { m.fx = 0.0; }, camera},
        {[](auto& m) { m.fy = -1.0; }, camera},
        {[](auto& m) { m.cy = kNaN; }, camera},
+       {[](auto& m) { m.fx = 1e30; }, camera},
        {[](auto& m) { m.inverse_depth_scale = 0.0; }, "'inverse_depth_scale'"},
+       {[](auto& m) { m.inverse_depth_scale = 1e12; }, "farther than any sensor sees"},
        {[](auto& m) { m.color = to_png_message(noise_image(CV_8UC3)); }, "colour image"},
        {[](auto& m) { m.color = to_png_message(cv::Mat(16, 16, CV_16UC1, cv::Scalar(1))); },
         "colour image"}});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 namespace limbcast::lcm_io {
 namespace {
@@ -18,6 +19,17 @@ TEST(StatusCounter, CountsGapsInTheSequenceOfEachSensor) {
   counter.received("back", 11);
   EXPECT_EQ(counter.num_received(), 5);
   EXPECT_EQ(counter.num_gaps(), 2);
+}
+
+TEST(StatusCounter, KeepsTheCountOfASensorAmongManyMadeUpNames) {
+  StatusCounter counter;
+  counter.received("front", 1);
+  for (int i = 0; i < 1000; ++i) {
+    counter.received("made up " + std::to_string(i), 1);
+    if (i % 10 == 0) counter.received("front", 2 + i / 10);
+  }
+  counter.received("front", 105);  // after 101
+  EXPECT_EQ(counter.num_gaps(), 3);
 }
 
 TEST(StatusCounter, TakesASequenceThatGoesBackAsARestart) {
