@@ -60,11 +60,13 @@ TEST(Settings, KeepMessagesOnTheHostUnlessTheExampleRobotSharesThem) {
   const auto shipped = lcm_io::parse_multicast_url(url_in("settings/lcm.conf"));
   ASSERT_TRUE(shipped);
   EXPECT_EQ(shipped->ttl, 0);
+  EXPECT_GT(shipped->recv_buf_size, 0) << "lcm-logger asks for no more than the URL does";
   for (const char* host : {"camera", "vision", "operator"}) {
     const auto url =
         lcm_io::parse_multicast_url(url_in(std::string("robot/") + host + "/lcm.conf"));
     ASSERT_TRUE(url) << host;
     EXPECT_EQ(url->ttl, 1);
+    EXPECT_GT(url->recv_buf_size, 0) << host;
   }
 }
 
