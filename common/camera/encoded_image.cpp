@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "common/camera/jpeg.hpp"
@@ -139,6 +140,14 @@ cv::Mat decode_image(const EncodedImage& image, const std::string& where) {
           : cv::imdecode(image.bytes, color | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   if (pixels.empty()) fail(where, "cannot be decoded");
   return pixels;
+}
+
+cv::Mat decode_grey(const EncodedImage& image, const std::string& where) {
+  const cv::Mat pixels = decode_image(image, where);
+  if (pixels.channels() == 1) return pixels;
+  cv::Mat grey;
+  cv::cvtColor(pixels, grey, cv::COLOR_BGR2GRAY);
+  return grey;
 }
 
 }  // namespace limbcast

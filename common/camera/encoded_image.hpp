@@ -31,5 +31,7 @@ EncodedImage encode_png(const cv::Mat& image);
 
 /// Pixels as stored: grey or BGR, 8 or 16 bit. Throws InputError where they cannot be decoded.
 cv::Mat decode_image(const EncodedImage& image, const std::string& where);
+/// The same with colours turned into grey.
+cv::Mat decode_grey(const EncodedImage& image, const std::string& where);
 
 }  // namespace limbcast

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/camera/calibration_io.hpp"
+#include "common/camera/encoded_image.hpp"
 #include "common/config/log.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/decode.hpp"
@@ -24,12 +25,6 @@ const FilePair kNames{"left", "right"};
 constexpr const char* kImagesChannel = "STEREO_IMAGES";
 constexpr const char* kCalibrationChannel = "STEREO_CALIBRATION";
 
-cv::Mat grey(const EncodedImage& image, const std::string& where) {
-  EncodedImage wanted = image;
-  wanted.channels = 1;
-  return decode_image(wanted, where);
-}
-
 cv::Mat grey(const cv::Mat& image) {
   if (image.channels() == 1) return image;
   cv::Mat result;
@@ -42,7 +37,8 @@ void visit_folder(const std::string& folder, const Take& take) {
     const EncodedImage left = read_encoded_image(frame.first_path);
     const EncodedImage right = read_encoded_image(frame.second_path);
     check_not_told_to_end();
-    if (!take({frame.time.name, grey(left, frame.first_path), grey(right, frame.second_path)}))
+    if (!take({frame.time.name, decode_grey(left, frame.first_path),
+               decode_grey(right, frame.second_path)}))
       return;
   }
 }
@@ -86,7 +82,8 @@ void visit_stream(const SourceOptions& options, const Take& take) {
     if (const auto statistics = source->statistics()) problems.tell(statistics->problem);
     if (!frame) continue;
     const std::string name = "frame " + std::to_string(frame->stamp.sequence);
-    if (!take({name, grey(frame->first, name), grey(frame->second, name), frame->stamp.utime}))
+    if (!take({name, decode_grey(frame->first, name), decode_grey(frame->second, name),
+               frame->stamp.utime}))
       return;
   }
 }

@@ -210,7 +210,7 @@ void judge_lens(const char* side, const PinholeCamera& camera, const LensUncerta
   if (std::abs(camera.fx / camera.fy - 1.0) > params.max_aspect_error)
     faults.push_back(
         formatted("%s camera: focal lengths %.0f and %.0f px differ by more than %.0f %%; "
-                  "are the squares of the board square?",
+                  "are the squares of the board square, the pictures not stretched?",
                   side, camera.fx, camera.fy, 100.0 * params.max_aspect_error));
   if (camera.cx < 0.0 || camera.cx >= camera.width || camera.cy < 0.0 || camera.cy >= camera.height)
     faults.push_back(

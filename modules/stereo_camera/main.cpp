@@ -1,6 +1,7 @@
 #include <limbcast/stereo_images_t.hpp>
 
 #include "common/camera/calibration_io.hpp"
+#include "common/camera/encoded_image.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
@@ -42,7 +43,8 @@ class OrderCheck {
 
   void look_at(const FramePair& frame, Outlet& outlet) {
     if (frame.stamp.sequence >= kFramesToCheck || told_) return;
-    evidence_ += compare_blocks(grey(frame.first), grey(frame.second), calibration_);
+    evidence_ += compare_blocks(decode_grey(frame.first, "left image"),
+                                decode_grey(frame.second, "right image"), calibration_);
     told_ = looks_swapped(evidence_);
     if (!told_) return;
     outlet.report_problem("left and right images look swapped (" +
@@ -52,12 +54,6 @@ class OrderCheck {
   }
 
  private:
-  static cv::Mat grey(const EncodedImage& image) {
-    EncodedImage wanted = image;
-    wanted.channels = 1;
-    return decode_image(wanted, "stereo pair");
-  }
-
   const StereoCalibration& calibration_;
   SwapEvidence evidence_;
   bool told_ = false;

@@ -27,9 +27,14 @@ using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
+/// As cameras give them: coloured JPEG.
 void write_pair(const TemporaryFolder& folder, const GreyPair& pair) {
-  cv::imwrite(folder / (pair.name + "_left.png"), pair.left);
-  cv::imwrite(folder / (pair.name + "_right.png"), pair.right);
+  for (const auto& [grey, side] :
+       {std::pair(&pair.left, "_left.jpg"), {&pair.right, "_right.jpg"}}) {
+    cv::Mat image;
+    cv::cvtColor(*grey, image, cv::COLOR_GRAY2BGR);
+    cv::imwrite(folder / (pair.name + side), image);
+  }
 }
 
 /// Pairs of OpenCV's example under the names that a folder source wants.

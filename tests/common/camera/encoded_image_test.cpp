@@ -55,6 +55,14 @@ TEST(EncodedImage, PngKeepsEveryPixel) {
   }
 }
 
+TEST(EncodedImage, GivesColoursAsGrey) {
+  for (const EncodedImage& image : {encode_jpeg(ramp(CV_8UC3), 100), encode_png(ramp(CV_8UC3))}) {
+    const cv::Mat grey = decode_grey(image, "test");
+    ASSERT_EQ(grey.type(), CV_8UC1);
+    EXPECT_LE(cv::norm(grey, ramp(CV_8UC1), cv::NORM_INF), 2.0);
+  }
+}
+
 TEST(EncodedImage, KeepsPixelsWhereTheCameraStoodWhateverItsOrientationNoteSays) {
   EncodedImage image = encode_jpeg(ramp(CV_8UC3), 90);
   // EXIF: one entry, orientation (0x0112) = 6, turn by 90 degrees.
