@@ -19,8 +19,6 @@ class Confidence : public ::testing::Test {
     evidence_.weight = 200.0;
     evidence_.surface_cost = 30.0;
     evidence_.prior_cost = 3.0;
-    evidence_.head_odds = 3.0;
-    evidence_.legs_share = 0.4;
     evidence_.sigma_m.fill(0.01);
     evidence_.in_sight.fill(true);
     evidence_.arms.fill({/*support=*/15.0, /*gap=*/8.0, /*bend_rad=*/0.1, /*sigma_rad=*/0.03,
@@ -92,10 +90,12 @@ class ToldDirections : public Confidence {
     testing::point_with(body_, 1, {-0.7, 0.1, -0.7});
     const auto observation = observe(testing::seen(body_), testing::stamp(), RefinedParams{});
     if (observation) observation_ = *observation;
+    evidence_.head_odds = 3.0;
   }
   std::vector<Side> sides() const {
     std::vector<Side> sides;
-    const auto pose = assess(body_, evidence_, observation_);
+    const auto pose =
+        assess({observation_, body_, 0.0, evidence_, gather_person_evidence(body_, observation_)});
     if (!pose) return sides;
     for (const Pointing& pointing : pose->pointing) sides.push_back(pointing.side);
     return sides;
@@ -122,13 +122,39 @@ TEST_F(ToldDirections, IncludeTheOtherArmWhereTheMoreRaisedOneIsSurelyWrong) {
   EXPECT_EQ(sides(), std::vector<Side>{Side::kRight});
 }
 
-TEST_F(Confidence, OfAPersonFallsWithADoubtfulHeadAndAnOddPosture) {
-  const Real before = person_confidence(evidence_);
-  evidence_.head_odds = -2.0;
-  const Real doubtful_head = person_confidence(evidence_);
+/// A body fitted to what a sensor sees of somebody who stands 2.5 m away.
+FittedBody standing_person() {
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.seed_kind = SeedKind::kHeadShape;
+  segment.seed_score = 0.95F;
+  auto fitted = fit_body(segment, testing::stamp(), RefinedParams{});
+  EXPECT_TRUE(fitted);
+  return *fitted;
+}
+
+TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
+  EXPECT_GT(person_confidence(standing_person()), 0.9);
+}
+
+TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
+  FittedBody fitted = standing_person();
+  fitted.evidence.prior_cost = 30.0;
+  while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > 0.8)
+    fitted.evidence.head_odds -= 0.1;
+  ASSERT_GT(person_confidence(fitted), 0.45);
+  EXPECT_TRUE(assess(fitted));
+  fitted.observation.noise.constant_m = 0.06F;
+  EXPECT_FALSE(assess(fitted));
+}
+
+TEST(PersonConfidence, FallsWithADoubtfulHeadAndAnOddPosture) {
+  FittedBody fitted = standing_person();
+  const Real before = person_confidence(fitted);
+  fitted.evidence.head_odds = -2.0;
+  const Real doubtful_head = person_confidence(fitted);
   EXPECT_LT(doubtful_head, before);
-  evidence_.prior_cost = 30.0;
-  EXPECT_LT(person_confidence(evidence_), doubtful_head);
+  fitted.evidence.prior_cost = 100.0;
+  EXPECT_LT(person_confidence(fitted), doubtful_head);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #!/bin/bash
 # Fits the confidences of the refined fitter anew: simulates people and rooms without any, runs the chain on them and on
-# the recordings of bodies D1 to D3, writes modules/pose_fitter/refined/confidence_coefficients.inc and prints how often
-# what was told with which probability came true. Build again afterwards.
+# the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
+# modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   660 simulated frames, 0.2 GB, about ten minutes on one core; sets that are there stay
+#   SIMULATED_DIR   2580 simulated frames, 1.1 GB, about half an hour on one core; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -24,3 +24,29 @@ simulate c_depth_nohuman nohuman depth 60 706 --color
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done
 "$bin/limbcast-train-confidences" modules/pose_fitter/refined/confidence_coefficients.inc "${folders[@]}" "${recorded[@]}"
+
+# People and what may be taken for them, before every sensor. None of these was seen by the segmenter's networks.
+folders=()
+simulate p_nohuman nohuman stereo 200 801
+simulate p_multi multi stereo 120 802 --child-share 0.15
+simulate p_sit general stereo 50 805 --posture sit
+simulate p_multi2 multi stereo 100 301 --child-share 0.25
+simulate p_depth_nohuman nohuman depth 120 806 --color
+simulate p_depth_multi multi depth 80 807 --color --child-share 0.15
+simulate p_pointing pointing stereo 80 304 --max-distance-m 5.2
+dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
+simulate p_laser_nohuman nohuman laser 80 809
+simulate p_dense_nohuman nohuman laser 60 814 "${dense[@]}"
+simulate p_laser_nohuman2 nohuman laser 120 823
+simulate p_laser_multi multi laser 60 812 --child-share 0.15
+simulate p_dense_pointing pointing laser 60 810 --max-distance-m 5 "${dense[@]}"
+simulate p_laser_pointing pointing laser 60 811 --max-distance-m 5
+simulate p_laser_general general laser 50 813 --child-share 0.15
+simulate p_depth_nohuman2 nohuman depth 150 822 --color
+simulate p_nohuman2 nohuman stereo 200 821
+simulate p_general general stereo 120 302 --child-share 0.3 --max-distance-m 5.2
+simulate p_depth_sit general depth 60 808 --color --posture sit
+simulate p_depth_pointing pointing depth 50 815 --color
+simulate p_nohuman3 nohuman stereo 100 303
+"$bin/limbcast-train-persons" modules/pose_fitter/refined/person_trees.inc "${folders[@]}" "${recorded[@]}" \
+  "$data/stereo_dev/nohuman"

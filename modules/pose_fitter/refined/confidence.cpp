@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "common/units.hpp"
+#include "modules/pose_fitter/refined/boosted_trees.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
 
 #include "modules/pose_fitter/refined/confidence_coefficients.inc"
+#include "modules/pose_fitter/refined/person_trees.inc"
 
 /// Evidence beyond this many units of cost adds nothing.
 constexpr Real kMostEvidence = 30.0, kMostGap = 15.0;
@@ -20,6 +22,13 @@ Real odd_posture(const Evidence& evidence) {
   return std::log(std::max(kLeastPriorCost, evidence.prior_cost));
 }
 Real surface_misfit(const Evidence& evidence) { return evidence.surface_cost / evidence.weight; }
+
+/// Mean over the points from `first` to before `end`.
+Real mean_log_sigma(const Evidence& evidence, int first, int end) {
+  Real sum = 0.0;
+  for (int i = first; i < end; ++i) sum += std::log(std::max(kLeastSigmaM, evidence.sigma_m[i]));
+  return sum / (end - first);
+}
 
 bool of_lower_arm(int point) { return point >= kElbow && point < kHip; }
 /// Head, neck, chest and pelvis stay where they are when the body is flipped.
@@ -55,12 +64,24 @@ DirectionFeatures direction_features(const BodyState& body, const ArmEvidence& a
   return features;
 }
 
-PersonFeatures person_features(const Evidence& evidence) {
-  PersonFeatures features;
-  features << 1.0, odd_posture(evidence), strength(evidence.shape_flip_gap),
-      strength(evidence.arms[0].support) + strength(evidence.arms[1].support), evidence.legs_share,
-      evidence.head_odds;
-  return features;
+PersonFeatures person_features(const FittedBody& fitted) {
+  const Evidence& evidence = fitted.evidence;
+  const PersonEvidence& person = fitted.person;
+  Features<PersonFeatures::RowsAtCompileTime> features;
+  auto list = features << person.unexplained_share;
+  for (const RegionLook& look : person.regions) {
+    list, look.own, look.other, look.before, look.behind, look.beside_behind, look.beside_level,
+        look.beside_before, look.weight_share, look.misfit;
+  }
+  list, person.inside_share, person.extent_m, person.trunk_extent_m, person.top_over_head_m,
+      person.bottom_m, person.ankle_height_m, person.noise_m, person.head_moved_m,
+      person.outside_share, person.trunk_upright, person.neck_upright, person.thighs_upright,
+      person.shins_upright, person.face_log_odds, person.guessed_head ? 1.0 : 0.0;
+  list, fitted.body.log_girth, odd_posture(evidence), surface_misfit(evidence),
+      mean_log_sigma(evidence, kHead, kShoulder), mean_log_sigma(evidence, kShoulder, kJointCount),
+      strength(evidence.shape_flip_gap),
+      strength(evidence.arms[0].support) + strength(evidence.arms[1].support), evidence.head_odds;
+  return features.cast<float>();
 }
 
 Real joint_confidence(const Evidence& evidence, int joint) {
@@ -71,8 +92,11 @@ Real direction_confidence(const BodyState& body, const ArmEvidence& arm, const E
   return probability(direction_features(body, arm, evidence), kDirectionCoefficients);
 }
 
-Real person_confidence(const Evidence& evidence) {
-  return probability(person_features(evidence), kPersonCoefficients);
+Real person_confidence(const FittedBody& fitted) {
+  const PersonFeatures features = person_features(fitted);
+  Real log_odds = 0.0;
+  for (const Tree& tree : kPersonTrees) log_odds += tree.value_of(features);
+  return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
 Real spread_scale() { return kSpreadScale; }

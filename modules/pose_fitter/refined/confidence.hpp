@@ -1,16 +1,17 @@
 #pragma once
 
-#include "modules/pose_fitter/refined/evidence.hpp"
+#include "modules/pose_fitter/refined/fitted_body.hpp"
 
-/// Probabilities as logistic regressions on evidence. tests/pose_fitter/train.sh fits their
-/// coefficients (confidence_coefficients.inc) to people whose true joints are known.
+/// Probabilities by evidence: logistic regressions, and boosted trees for a person's.
+/// tests/pose_fitter/train.sh fits them (confidence_coefficients.inc, person_trees.inc) to people
+/// whose true joints are known, and to things that are none.
 namespace limbcast::pose_fitter::refined {
 
 template <int count>
 using Features = Eigen::Matrix<Real, count, 1>;
 using JointFeatures = Features<9>;
 using DirectionFeatures = Features<9>;
-using PersonFeatures = Features<6>;
+using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 28, 1>;
 
 /// What tells that a joint is within 10 cm.
 JointFeatures joint_features(const Evidence& evidence, int joint);
@@ -20,12 +21,12 @@ JointFeatures joint_features(const Evidence& evidence, int joint);
 DirectionFeatures direction_features(const BodyState& body, const ArmEvidence& arm,
                                      const Evidence& evidence);
 /// What tells a person from furniture, which fits a body too, but in an odd posture, as well from
-/// the back, without limbs of its own and with a doubtful head.
-PersonFeatures person_features(const Evidence& evidence);
+/// the back, without limbs of its own, with a doubtful head, and goes on beside the body.
+PersonFeatures person_features(const FittedBody& fitted);
 
 Real joint_confidence(const Evidence& evidence, int joint);
 Real direction_confidence(const BodyState& body, const ArmEvidence& arm, const Evidence& evidence);
-Real person_confidence(const Evidence& evidence);
+Real person_confidence(const FittedBody& fitted);
 
 /// Root mean square of error over posterior spread: larger than 1, as neighbouring points share
 /// their errors.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -84,16 +85,8 @@ Real surface_cost_without(const Cones& cones, const FitStage& stage, unsigned pa
   return equations->cost;
 }
 
-void weigh_points(const Cones& cones, const PointColumns& points, Evidence& evidence) {
-  NearestCones nearest;
-  nearest_cones(points, cones, kAllParts, nullptr, nearest);
-  Real legs = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    evidence.weight += points.weight[i];
-    if (cone_specs()[nearest.cone[i]].part == Part::kLegs) legs += points.weight[i];
-  }
-  evidence.weight = std::max(1e-3, evidence.weight);
-  evidence.legs_share = legs / evidence.weight;
+Real weight_of(const PointColumns& points) {
+  return std::max(1e-3, std::accumulate(points.weight.begin(), points.weight.end(), 0.0));
 }
 
 Vec3 arm_axis(const BodyState& body, int side) {
@@ -154,7 +147,7 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
     evidence.in_sight[i] =
         in_sight(observation, body.points[i], kPointRadius[i] * body.stature_m());
   }
-  weigh_points(cones, *stage.points, evidence);
+  evidence.weight = weight_of(*stage.points);
 
   evidence.flip_gap = flip_gap(candidates, [](const PoseCandidate& pose) { return pose.cost; });
   evidence.shape_flip_gap = flip_gap(candidates, [&](const PoseCandidate& pose) {

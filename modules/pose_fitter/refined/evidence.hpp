@@ -23,7 +23,6 @@ struct Evidence {
   Real shape_flip_gap = 0.0;  ///< the same without what the face tells
   Real weight = 0.0;          ///< of all points
   Real head_odds = 0.0;       ///< logarithm of the odds that the segment began at a head
-  Real legs_share = 0.0;      ///< of that weight, nearest to the legs
   Real surface_cost = 0.0, prior_cost = 0.0;
   std::array<Real, kPointCount> sigma_m{};   ///< of each point along its worst axis
   std::array<bool, kPointCount> in_sight{};  ///< nothing seen before it, in the image

@@ -31,6 +31,7 @@ std::optional<FittedBody> fit_body(const Segment& segment, const Stamp& stamp,
   fitted.cost = candidates.front().cost;
   fitted.evidence = gather_evidence(candidates, search);
   fitted.evidence.head_odds = head_odds(segment);
+  fitted.person = gather_person_evidence(fitted.body, *observation);
   fitted.observation = std::move(*observation);
   return fitted;
 }

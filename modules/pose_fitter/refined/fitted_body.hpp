@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "modules/pose_fitter/refined/evidence.hpp"
+#include "modules/pose_fitter/refined/person_evidence.hpp"
 
 namespace limbcast::pose_fitter::refined {
 
@@ -12,6 +12,7 @@ struct FittedBody {
   BodyState body;
   Real cost = 0.0;
   Evidence evidence;
+  PersonEvidence person;
 };
 
 /// Nothing when there are too few points for a person.

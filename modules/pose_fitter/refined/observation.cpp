@@ -98,7 +98,7 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
   observation.full_height = image.full_height;
   cv::Mat may_stand(camera.height, camera.width, CV_8U);
   observation.surface_m.assign(static_cast<std::size_t>(camera.width) * camera.height, 0.0F);
-  observation.seen_m = observation.surface_m;
+  observation.seen_m = observation.measured_m = observation.surface_m;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       std::uint8_t free = 1;
@@ -107,6 +107,8 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
           iv < image.camera.height) {
         const std::size_t i = static_cast<std::size_t>(iv) * image.camera.width + iu;
         const float z = image.depth_m[i];
+        if (image.labels[i] != PixelLabel::kUnknown)
+          observation.measured_m[observation.at(u, v)] = z;
         if (image.labels[i] == PixelLabel::kOther) {
           free = z < median_z - kOccluderGapM;
           if (free) observation.seen_m[observation.at(u, v)] = z;
@@ -212,8 +214,8 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   const Vec3 seed = (image.frame_from_image.transpose() * segment.seed_m).cast<Real>();
   if (!(seed.norm() > 0.1)) return std::nullopt;
   observation.head_start = seed + kHeadDepthM * seed.normalized();
-  observation.head_start_sigma_m =
-      segment.seed_kind == SeedKind::kBody ? kGuessedHeadSigmaM : kSeenHeadSigmaM;
+  observation.guessed_head = segment.seed_kind == SeedKind::kBody;
+  observation.head_start_sigma_m = observation.guessed_head ? kGuessedHeadSigmaM : kSeenHeadSigmaM;
   observation.up = -(image.frame_from_image.transpose() * stamp.gravity.down).cast<Real>();
   observation.face = segment.face;
   if (stamp.gravity.sensor_height_m) observation.floor_m = *stamp.gravity.sensor_height_m;

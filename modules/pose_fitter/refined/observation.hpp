@@ -31,8 +31,9 @@ struct Observation {
   /// Distance to where the sensor saw through [px]: positive where a body may stand, negative
   /// outside.
   std::vector<float> clearance_px;
-  std::vector<float> surface_m;  ///< the person's own surface along the optical axis, 0 = none
-  std::vector<float> seen_m;     ///< the same with whatever stands before the person
+  std::vector<float> surface_m;   ///< the person's own surface along the optical axis, 0 = none
+  std::vector<float> seen_m;      ///< the same with whatever stands before the person
+  std::vector<float> measured_m;  ///< the same with all that was measured
   /// Distance to the nearest skin-coloured pixel of the person [px]; empty where none is known.
   std::vector<float> skin_distance_px;
   DepthNoise noise;
@@ -41,6 +42,7 @@ struct Observation {
   Vec3 up;                         ///< against gravity
   Vec3 head_start;                 ///< first guess of the head's centre
   Real head_start_sigma_m = 0.05;  ///< standard deviation of its error
+  bool guessed_head = false;       ///< the segment began at a body whose head is out of sight
   std::optional<Real> floor_m;     ///< place of the floor along -up, where it is known
   Eigen::Matrix3f frame_from_image = Eigen::Matrix3f::Identity();
 

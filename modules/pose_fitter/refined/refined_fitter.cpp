@@ -21,7 +21,7 @@ std::optional<BodyPose> RefinedFitter::fit(const Segment& segment, const Stamp& 
   const std::optional<refined::FittedBody> fitted = refined::fit_body(segment, stamp, params_);
   if (!fitted) return std::nullopt;
   const refined::Observation& observation = fitted->observation;
-  std::optional<BodyPose> pose = refined::assess(fitted->body, fitted->evidence, observation);
+  std::optional<BodyPose> pose = refined::assess(*fitted);
   if (!pose) return std::nullopt;
   rotate(observation.frame_from_image, *pose);
   pose->id = segment.id;

@@ -1,0 +1,67 @@
+#include "tests/pose_fitter/fitted_frames.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <optional>
+#include <utility>
+
+#include "common/human_model/ground_truth_json.hpp"
+#include "modules/evaluate/evaluation.hpp"
+#include "tests/segmenter/recorded_frames.hpp"
+
+namespace limbcast::pose_fitter {
+namespace {
+
+using segmenter::LoadedFrame;
+
+BodyPose all_joints(const refined::FittedBody& fitted) {
+  BodyPose pose;
+  for (int i = 0; i < kJointCount; ++i) {
+    pose.joints[i].valid = true;
+    pose.joints[i].position_m =
+        fitted.observation.frame_from_image * fitted.body.points[i].cast<float>();
+  }
+  return pose;
+}
+
+FittedFrame fit_frame(const LoadedFrame& frame, std::vector<BodyPose> truth,
+                      const segmenter::Segmenter& segmenter) {
+  const Segments segments = segmenter.segment(frame.cloud);
+  FittedFrame fitted;
+  fitted.stamp = segments.stamp;
+  fitted.truth = std::move(truth);
+  for (const Segment& segment : segments.segments) {
+    if (!segment.valid()) continue;
+    auto body = refined::fit_body(segment, segments.stamp, RefinedParams{});
+    if (!body) continue;
+    fitted.poses.push_back(all_joints(*body));
+    fitted.bodies.push_back(std::move(*body));
+  }
+  fitted.matching = evaluate::match_persons(fitted.truth, fitted.poses,
+                                            evaluate::EvaluationParams{}.match_distance_m);
+  return fitted;
+}
+
+}  // namespace
+
+void fit_frames(const std::string& folder, const segmenter::Segmenter& segmenter,
+                const std::function<void(FittedFrame&&, std::size_t)>& take) {
+  const segmenter::FrameReader reader(folder, segmenter::DepthFrom::kReconstructor);
+  std::vector<std::optional<FittedFrame>> frames(reader.paths().size());
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+    const std::string& path = reader.paths()[i];
+    const LoadedFrame frame = reader.read(path);
+    if (!frame.labelled || frame.for_checking()) return;
+    frames[i] = fit_frame(frame, read_ground_truth(path + "_gt.json").persons, segmenter);
+  });
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i]) take(std::move(*frames[i]), i);
+  }
+}
+
+bool is_checked_on(std::size_t frame) {
+  constexpr std::size_t kBlock = 8, kBlocks = 4;
+  return frame / kBlock % kBlocks == kBlocks - 1;
+}
+
+}  // namespace limbcast::pose_fitter
