@@ -97,7 +97,7 @@ body_poses_t body_poses_message() {
   pose.scale = 0.95F;
   pointing_t pointing{};
   pointing.side = pointing_t::RIGHT;
-  const auto set = [](float (&direction)[3], float x, float y, float z) {
+  const auto set = [](float(&direction)[3], float x, float y, float z) {
     direction[0] = x;
     direction[1] = y;
     direction[2] = z;
