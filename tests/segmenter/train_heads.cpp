@@ -136,7 +136,7 @@ void corrupt(std::vector<float>& patch, Random& random) {
   constexpr float kMostNoise = 0.12F, kMostHoles = 0.25F;
   const float noise = kMostNoise * std::pow(uniform(random), 2.0F);
   const float holes = kMostHoles * std::pow(uniform(random), 3.0F);
-  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(2 * count_samples(kPatchGrids));
+  for (std::size_t i = 0; i + 1 < 2 * static_cast<std::size_t>(count_samples(kPatchGrids));
        i += 2) {
     if (patch[i + 1] <= 0.0F) continue;
     if (uniform(random) < holes)

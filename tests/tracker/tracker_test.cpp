@@ -11,7 +11,6 @@ namespace limbcast::tracker {
 namespace {
 
 using Eigen::Vector3f;
-using evaluate::left_arm;
 using evaluate::pointing_figure;
 using evaluate::standing_figure;
 
