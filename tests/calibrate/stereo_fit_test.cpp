@@ -86,10 +86,13 @@ TEST(StereoFit, MeasuresDistanceAndTiltOfTheBoard) {
   EXPECT_GT(std::abs(fit.figures[0].tilt_updown_deg), 12.0);
 }
 
-TEST(Judge, AcceptsAGoodFit) {
+StereoFit good_fit() {
   const Board board;
-  const StereoFit fit =
-      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  return fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+}
+
+TEST(Judge, AcceptsAGoodFit) {
+  const StereoFit fit = good_fit();
   const Verdict verdict = judge(fit, 0.8);
   EXPECT_THAT(verdict.faults, IsEmpty());
   EXPECT_THAT(verdict.warnings, IsEmpty());
@@ -112,16 +115,12 @@ TEST(Judge, RefusesCamerasThatAreSwapped) {
 }
 
 TEST(Judge, RefusesWhatCoversLittleOfTheImage) {
-  const Board board;
-  const StereoFit fit =
-      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  const StereoFit fit = good_fit();
   EXPECT_THAT(judge(fit, 0.2).faults, Contains(HasSubstr("the boards cover 20 % of the image")));
 }
 
 TEST(Judge, WarnsWhereCornersAreNotCovered) {
-  const Board board;
-  const StereoFit fit =
-      fit_stereo(project_boards(board, varied_poses(board, 12), true_cameras()), board, kVga);
+  const StereoFit fit = good_fit();
   const Verdict verdict = judge(fit, 0.3);
   EXPECT_THAT(verdict.faults, IsEmpty());
   EXPECT_THAT(verdict.warnings, Contains(HasSubstr("the boards cover 30 % of the image")));
