@@ -77,26 +77,14 @@ class RegionSums {
  public:
   void add_on_surface(const Measured& measured, Real expected_z_m, Real noise_m) {
     ++samples_;
-    if (measured.z_m <= 0.0) return;
-    const Real tolerance_m = kOnSurfaceM + kNoiseSigmas * noise_m;
-    if (measured.z_m < expected_z_m - tolerance_m)
-      ++look_.before;
-    else if (measured.z_m > expected_z_m + tolerance_m)
-      ++look_.behind;
-    else
-      ++(measured.own ? look_.own : look_.other);
+    count(measured, expected_z_m, kOnSurfaceM + kNoiseSigmas * noise_m, look_.before,
+          measured.own ? look_.own : look_.other, look_.behind);
   }
 
   void add_beside(const Measured& measured, Real expected_z_m, Real noise_m) {
     ++samples_beside_;
-    if (measured.z_m <= 0.0) return;
-    const Real tolerance_m = kLevelM + kNoiseSigmas * noise_m;
-    if (measured.z_m < expected_z_m - tolerance_m)
-      ++look_.beside_before;
-    else if (measured.z_m > expected_z_m + tolerance_m)
-      ++look_.beside_behind;
-    else
-      ++look_.beside_level;
+    count(measured, expected_z_m, kLevelM + kNoiseSigmas * noise_m, look_.beside_before,
+          look_.beside_level, look_.beside_behind);
   }
 
   RegionLook shares() const {
@@ -109,6 +97,18 @@ class RegionSums {
   }
 
  private:
+  /// One more where the measured depth lies: before the expected one, at it, or behind.
+  static void count(const Measured& measured, Real expected_z_m, Real tolerance_m, Real& before,
+                    Real& level, Real& behind) {
+    if (measured.z_m <= 0.0) return;
+    if (measured.z_m < expected_z_m - tolerance_m)
+      ++before;
+    else if (measured.z_m > expected_z_m + tolerance_m)
+      ++behind;
+    else
+      ++level;
+  }
+
   RegionLook look_;  ///< counts
   int samples_ = 0, samples_beside_ = 0;
 };
