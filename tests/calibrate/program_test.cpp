@@ -19,10 +19,10 @@
 namespace limbcast::calibrate {
 namespace {
 
-using limbcast::testing::Outcome;
-using limbcast::testing::run_program;
-using limbcast::testing::shell_quoted;
-using limbcast::testing::TemporaryFolder;
+using limbcast::test::Outcome;
+using limbcast::test::run_program;
+using limbcast::test::shell_quoted;
+using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
 namespace fs = std::filesystem;

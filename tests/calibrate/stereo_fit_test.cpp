@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/calibrate/boards.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -73,7 +73,7 @@ TEST(StereoFit, LeavesOutAViewWhoseBoardMovedBetweenTheImages) {
 TEST(StereoFit, NeedsViewsOfTheBoard) {
   const Board board;
   const std::vector<View> views = project_boards(board, varied_poses(board, 3), true_cameras());
-  EXPECT_THAT(testing::error_of<std::runtime_error>([&] { fit_stereo(views, board, kVga); }),
+  EXPECT_THAT(test::error_of<std::runtime_error>([&] { fit_stereo(views, board, kVga); }),
               HasSubstr("only 3 good views of the board, at least 5 are needed"));
 }
 

@@ -8,7 +8,7 @@
 
 #include "common/input_error.hpp"
 #include "tests/calibrate/boards.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -141,7 +141,7 @@ TEST_F(Views, OfOtherSizeEndTheProgram) {
   ViewCollector collector(board_, false);
   collector.add(picture("a"));
   const cv::Mat small(48, 64, CV_8UC1, cv::Scalar(90));
-  EXPECT_THAT(testing::error_of<InputError>([&] {
+  EXPECT_THAT(test::error_of<InputError>([&] {
                 collector.add({"b", small, small});
               }),
               HasSubstr("b: an image is 64x48, the first one 640x480"));

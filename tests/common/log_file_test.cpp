@@ -7,24 +7,25 @@
 #include <fstream>
 
 #include "common/config/options.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string temporary(const std::string& name) {
-  return (std::filesystem::path(::testing::TempDir()) / ("limbcast_log_file_test_" + name))
-      .string();
-}
+class LogFile : public ::testing::Test {
+ protected:
+  std::string write_three_events() const {
+    const std::string path = folder_ / "in.log";
+    LogWriter writer(path);
+    for (std::uint8_t i = 0; i < 3; ++i) writer.write(LogEvent{100 + i, "CHANNEL", {i, 2, 3}});
+    writer.close();
+    return path;
+  }
 
-std::string write_three_events(const std::string& name) {
-  const std::string path = temporary(name);
-  LogWriter writer(path);
-  for (std::uint8_t i = 0; i < 3; ++i) writer.write(LogEvent{100 + i, "CHANNEL", {i, 2, 3}});
-  writer.close();
-  return path;
-}
+  const test::TemporaryFolder folder_;
+};
 
 std::string error_of(const std::string& path) {
   try {
@@ -35,8 +36,8 @@ std::string error_of(const std::string& path) {
   return "";
 }
 
-TEST(LogFile, GivesEventsBackInOrder) {
-  LogReader reader(write_three_events("whole.log"));
+TEST_F(LogFile, GivesEventsBackInOrder) {
+  LogReader reader(write_three_events());
   for (std::uint8_t i = 0; i < 3; ++i) {
     const auto event = reader.next();
     ASSERT_TRUE(event.has_value());
@@ -49,8 +50,8 @@ TEST(LogFile, GivesEventsBackInOrder) {
   EXPECT_EQ(reader.damaged_bytes(), 0);
 }
 
-TEST(LogFile, ReadsATornLogUpToTheTear) {
-  const std::string path = write_three_events("torn.log");
+TEST_F(LogFile, ReadsATornLogUpToTheTear) {
+  const std::string path = write_three_events();
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 2);
   LogReader reader(path);
   EXPECT_TRUE(reader.next().has_value());
@@ -59,8 +60,8 @@ TEST(LogFile, ReadsATornLogUpToTheTear) {
   EXPECT_GT(reader.torn_bytes(), 0);
 }
 
-TEST(LogFile, GoesOnBehindADamagedEvent) {
-  const std::string path = write_three_events("damaged.log");
+TEST_F(LogFile, GoesOnBehindADamagedEvent) {
+  const std::string path = write_three_events();
   const auto event_bytes = static_cast<std::streamoff>(std::filesystem::file_size(path) / 3);
   {
     std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -80,21 +81,18 @@ TEST(LogFile, GoesOnBehindADamagedEvent) {
   EXPECT_EQ(reader.torn_bytes(), 0);
 }
 
-TEST(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {
+TEST_F(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {
   EXPECT_THAT(error_of("/nowhere/in.log"), HasSubstr("/nowhere/in.log: no such file"));
-  const std::string empty = temporary("empty.log");
-  std::ofstream(empty).close();
-  EXPECT_THAT(error_of(empty), HasSubstr("is empty"));
-  const std::string foreign = temporary("foreign.log");
-  std::ofstream(foreign) << "a text, not a log";
-  EXPECT_THAT(error_of(foreign), HasSubstr("is no LCM log"));
+  EXPECT_THAT(error_of(folder_.write("empty.log", "")), HasSubstr("is empty"));
+  EXPECT_THAT(error_of(folder_.write("foreign.log", "a text, not a log")),
+              HasSubstr("is no LCM log"));
 }
 
-TEST(LogFile, SaysThatAFileCannotBeWritten) {
+TEST_F(LogFile, SaysThatAFileCannotBeWritten) {
   EXPECT_THROW(LogWriter("/nowhere/out.log"), config::UsageError);
 }
 
-TEST(LogFile, SaysThatTheDiskIsFull) {
+TEST_F(LogFile, SaysThatTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   LogWriter writer("/dev/full");
   EXPECT_THROW(

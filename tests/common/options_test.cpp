@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::config {
 namespace {
@@ -42,12 +42,11 @@ class OptionsTest : public ::testing::Test {
     }
     return "";
   }
-  std::string config_file(const std::string& text) {
-    const auto path = std::filesystem::path(::testing::TempDir()) / "limbcast_options_test.conf";
-    std::ofstream(path) << text;
-    return path.string();
+  std::string config_file(const std::string& text) const {
+    return folder_.write("robot.conf", text);
   }
 
+  const test::TemporaryFolder folder_;
   Settings settings_;
   Section section_{"pose_fitter"};
   Parser parser_{"limbcast-test", "test"};
@@ -105,8 +104,7 @@ TEST_F(OptionsTest, RejectsUnknownOptionsChoicesAndArguments) {
 
 TEST_F(OptionsTest, NamesTheFileOfAnUnknownKeyOrSection) {
   std::string file = config_file("[pose_fitter]\ncolour = blue\n");
-  EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}),
-              HasSubstr("limbcast_options_test.conf"));
+  EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}), HasSubstr("robot.conf"));
   file = config_file("[pose_fiter]\nmethod = paper\n");
   EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}), HasSubstr("[pose_fiter]"));
   EXPECT_THAT(error_of({"in.log", "--config", "/missing.conf"}), HasSubstr("/missing.conf"));

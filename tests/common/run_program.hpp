@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace limbcast::testing {
+namespace limbcast::test {
 
 /// How a program of this build ended and what it said.
 struct Outcome {
@@ -45,4 +45,4 @@ inline Outcome run_program(const std::string& program, const std::vector<std::st
   return outcome;
 }
 
-}  // namespace limbcast::testing
+}  // namespace limbcast::test

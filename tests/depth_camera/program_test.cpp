@@ -33,9 +33,9 @@ class DepthCameraProgram : public ::testing::Test {
                "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\ndepth_scale: 0.0005\n"
                "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
                "   data: [ 50., 0., 32., 0., 51., 24., 0., 0., 1. ]\n");
-    testing::write_bytes(folder_ + "/a_color.jpg",
-                         encode_jpeg(testing::grey_picture(kWidth, kHeight, 80), 95));
-    testing::write_bytes(folder_ + "/a_depth.png", encode_png(depth_ramp()));
+    test::write_bytes(folder_ + "/a_color.jpg",
+                      encode_jpeg(test::grey_picture(kWidth, kHeight, 80), 95));
+    test::write_bytes(folder_ + "/a_depth.png", encode_png(depth_ramp()));
   }
   RunResult write_log(const std::vector<std::string>& options) const {
     std::vector<std::string> words = {program("limbcast-depth-camera"), "--calibration",
@@ -79,8 +79,8 @@ constexpr const char* kDepthLens =
 
 TEST_F(DepthCameraProgram, RegistersDepthToColorWhereTheCalibrationTellsHow) {
   std::ofstream(calibration_, std::ios::app) << kDepthLens;
-  testing::write_bytes(folder_ + "/a_depth.png",
-                       encode_png(cv::Mat(24, 32, CV_16UC1, cv::Scalar(4000))));  // 2 m
+  test::write_bytes(folder_ + "/a_depth.png",
+                    encode_png(cv::Mat(24, 32, CV_16UC1, cv::Scalar(4000))));  // 2 m
 
   const RunResult result = write_log({"--source", folder_});
 
@@ -129,11 +129,10 @@ TEST_F(DepthCameraProgram, EndsWithCode2WithoutItsDevices) {
 TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
   EXPECT_THAT(error({"--source", "/dev/video0"}), HasSubstr("--source-depth"));
-  testing::write_bytes(folder_ + "/a_depth.png",
-                       encode_png(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9))));
+  test::write_bytes(folder_ + "/a_depth.png",
+                    encode_png(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9))));
   EXPECT_THAT(error({"--source", folder_}), HasSubstr("one of 16 bit is needed"));
-  testing::write_bytes(folder_ + "/a_depth.png",
-                       encode_png(cv::Mat(10, 10, CV_16UC1, cv::Scalar(9))));
+  test::write_bytes(folder_ + "/a_depth.png", encode_png(cv::Mat(10, 10, CV_16UC1, cv::Scalar(9))));
   EXPECT_THAT(error({"--source", folder_}),
               HasSubstr("the color image is 64x48, the depth one 10x10"));
   std::filesystem::remove(folder_ + "/a_depth.png");

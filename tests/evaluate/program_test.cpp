@@ -13,9 +13,9 @@
 namespace limbcast::evaluate {
 namespace {
 
-using limbcast::testing::Outcome;
-using limbcast::testing::run_program;
-using limbcast::testing::TemporaryFolder;
+using limbcast::test::Outcome;
+using limbcast::test::run_program;
+using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "common/input_error.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::evaluate {
 namespace {
@@ -18,7 +18,7 @@ constexpr const char* kTwoPeople = R"({"utime":20,"persons":[
   {"body":"D4_woman","joints":{"head":[1,0,2]},"visible":{"head":true}}]})";
 
 TEST(TruthFolder, IsReadInOrderOfTime) {
-  const limbcast::testing::TemporaryFolder folder;
+  const limbcast::test::TemporaryFolder folder;
   folder.write("a_gt.json", kTwoPeople);
   folder.write("b_gt.json", R"({"utime":10,"persons":[]})");
   const auto frames = read_truth_folders({folder.path()});
@@ -28,7 +28,7 @@ TEST(TruthFolder, IsReadInOrderOfTime) {
 }
 
 TEST(TruthFolder, CountsOnlyTheBodiesThatAreAskedFor) {
-  const limbcast::testing::TemporaryFolder folder;
+  const limbcast::test::TemporaryFolder folder;
   folder.write("a_gt.json", kTwoPeople);
   EXPECT_THAT(read_truth_folders({folder.path()}, {"D4", "D5"}).at(0).counts,
               ElementsAre(false, true));
@@ -36,7 +36,7 @@ TEST(TruthFolder, CountsOnlyTheBodiesThatAreAskedFor) {
 }
 
 TEST(TruthFolder, WithoutTruthIsAnError) {
-  const limbcast::testing::TemporaryFolder folder;
+  const limbcast::test::TemporaryFolder folder;
   EXPECT_THROW(read_truth_folders({folder.path()}), InputError);
   EXPECT_THROW(read_truth_folders({folder.path() + "/none"}), InputError);
   folder.write("a_gt.json", "{");

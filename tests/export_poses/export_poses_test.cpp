@@ -12,9 +12,9 @@
 namespace limbcast::export_poses {
 namespace {
 
-using limbcast::testing::Outcome;
-using limbcast::testing::run_program;
-using limbcast::testing::TemporaryFolder;
+using limbcast::test::Outcome;
+using limbcast::test::run_program;
+using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
 BodyPoses poses_at(std::int64_t utime, int persons) {

@@ -9,13 +9,13 @@
 #include "common/input_error.hpp"
 #include "modules/laser_scanner/axes.hpp"
 #include "modules/laser_scanner/lzf.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::laser_scanner {
 namespace {
 
+using test::error_of;
 using ::testing::ElementsAre;
-using testing::error_of;
 using ::testing::HasSubstr;
 
 template <class T>
@@ -41,7 +41,7 @@ class CloudFile : public ::testing::Test {
   std::string error(const std::string& name, const std::string& bytes) {
     return error_of<InputError>([&] { read(name, bytes); });
   }
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   const float nan_ = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Eigen::Vector3f> two_points_ = {{1.5F, -2.0F, 3.0F}, {4.0F, 5.0F, -6.25F}};
   const std::vector<float> rows_ = {1.5F, -2.0F, 3.0F, 9.0F, 4.0F, 5.0F, -6.25F, 9.0F};

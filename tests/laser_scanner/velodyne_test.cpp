@@ -11,13 +11,13 @@
 #include "common/input_error.hpp"
 #include "modules/laser_scanner/cloud_source.hpp"
 #include "modules/laser_scanner/packet_source.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
 #include "tests/laser_scanner/velodyne_packets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::laser_scanner {
 namespace {
 
-using testing::error_of;
+using test::error_of;
 using ::testing::HasSubstr;
 
 constexpr std::size_t kReturnsOfATurn = 900 * 32;
@@ -150,7 +150,7 @@ class Recorded : public ::testing::Test {
     params.frame = "roof/scan";
     return params;
   }
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Recorded, PcapGivesTurnsInOurFrame) {

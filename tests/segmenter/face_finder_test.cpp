@@ -12,6 +12,7 @@
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -133,12 +134,11 @@ TEST_F(FacesOfTheDemo, AreNotLookedForWithoutCascadesAndTheProblemSaysWhatToInst
 }
 
 TEST_F(FacesOfTheDemo, AreNotLookedForWithDamagedCascades) {
-  const std::string folder = ::testing::TempDir() + "/damaged_cascades";
-  std::filesystem::create_directories(folder);
-  for (const char* file : {"/haarcascade_frontalface_default.xml", "/haarcascade_profileface.xml"})
-    std::ofstream(folder + file) << "<opencv_storage>";
+  const test::TemporaryFolder folder;
+  for (const char* file : {"haarcascade_frontalface_default.xml", "haarcascade_profileface.xml"})
+    folder.write(file, "<opencv_storage>");
   FaceParams params;
-  params.cascades = folder;
+  params.cascades = folder.path();
   EXPECT_THAT(FaceFinder(params).problem(), HasSubstr("opencv-data"));
 }
 

@@ -9,37 +9,31 @@
 #include "common/camera/recording.hpp"
 #include "modules/simulate/frame_folder.hpp"
 #include "modules/simulate/options.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::simulate {
 namespace {
 
 class FolderTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = ::testing::TempDir() + "limbcast_simulate_" + test->name();
-    std::filesystem::remove_all(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   SimulatorParams write_frames(SensorKind sensor, int count) const {
     SimulatorParams params;
     params.camera = {160, 120, 130.0, 130.0, 79.5, 59.5};
     params.scenario.set = SetKind::kPointing;
     params.sensor = sensor;
-    FrameFolder folder(folder_, params);
+    FrameFolder folder(folder_.path(), params);
     for (int i = 0; i < count; ++i) folder.write(simulate_frame(params, 1, i));
     return params;
   }
 
-  std::string folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(FolderTest, AStereoFolderReadsBackAsARecording) {
   const SimulatorParams params = write_frames(SensorKind::kStereo, 2);
 
-  const Recording recording = find_recording(folder_, {"left", "right"}, {});
-  const StereoCalibration calibration = read_stereo_calibration(folder_ + "/calibration.yml");
+  const Recording recording = find_recording(folder_.path(), {"left", "right"}, {});
+  const StereoCalibration calibration = read_stereo_calibration(folder_ / "calibration.yml");
 
   ASSERT_EQ(recording.frames.size(), 2U);
   EXPECT_TRUE(recording.has_timestamps);
@@ -52,8 +46,8 @@ TEST_F(FolderTest, AStereoFolderReadsBackAsARecording) {
 TEST_F(FolderTest, ADepthFolderReadsBackAsARecording) {
   write_frames(SensorKind::kDepth, 1);
 
-  const Recording recording = find_recording(folder_, {"color", "depth"}, {});
-  const DepthCalibration calibration = read_depth_calibration(folder_ + "/calibration.yml");
+  const Recording recording = find_recording(folder_.path(), {"color", "depth"}, {});
+  const DepthCalibration calibration = read_depth_calibration(folder_ / "calibration.yml");
 
   ASSERT_EQ(recording.frames.size(), 1U);
   EXPECT_EQ(cv::imread(recording.frames[0].second_path, cv::IMREAD_UNCHANGED).type(), CV_16U);
@@ -64,7 +58,7 @@ TEST_F(FolderTest, TheTruthHasEveryJointAndItsFlag) {
   write_frames(SensorKind::kLaser, 1);
 
   nlohmann::json truth;
-  std::ifstream(folder_ + "/pointing_0000_gt.json") >> truth;
+  std::ifstream(folder_ / "pointing_0000_gt.json") >> truth;
 
   ASSERT_EQ(truth["persons"].size(), 1U);
   const auto& person = truth["persons"][0];
@@ -73,7 +67,7 @@ TEST_F(FolderTest, TheTruthHasEveryJointAndItsFlag) {
     EXPECT_TRUE(person["visible"].contains(std::string(name))) << name;
   }
   EXPECT_TRUE(person["pointing"]["side"] == "left" || person["pointing"]["side"] == "right");
-  EXPECT_TRUE(std::filesystem::exists(folder_ + "/pointing_0000.pcd"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "pointing_0000.pcd"));
 }
 
 TEST_F(FolderTest, AFolderThatCannotBeMadeIsWrongUsage) {

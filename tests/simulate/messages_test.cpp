@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "common/human_model/ground_truth_json.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
@@ -11,6 +10,7 @@
 #include "modules/simulate/frame_folder.hpp"
 #include "modules/simulate/frame_messages.hpp"
 #include "modules/simulate/truth.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::simulate {
 namespace {
@@ -26,7 +26,8 @@ SimulatorParams small_params(SensorKind sensor) {
 
 /// What stands in a log of one frame, by channel.
 std::vector<lcm_io::LogEvent> logged(const FrameMessages& messages) {
-  const std::string path = ::testing::TempDir() + "limbcast_simulate_messages.log";
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "frame.log";
   lcm_io::LogWriter writer(path);
   Outlet outlet(writer);
   messages.send({}, outlet);
@@ -34,7 +35,6 @@ std::vector<lcm_io::LogEvent> logged(const FrameMessages& messages) {
   std::vector<lcm_io::LogEvent> events;
   lcm_io::LogReader reader(path);
   while (auto event = reader.next()) events.push_back(*event);
-  std::filesystem::remove(path);
   return events;
 }
 
@@ -89,10 +89,10 @@ TEST(FrameMessages, ALaserFrameIsAListOfFinitePoints) {
 TEST(FrameMessages, TheTruthIsThatOfTheFolder) {
   const SimulatorParams params = small_params(SensorKind::kDepth);
   const SimulatedFrame frame = simulate_frame(params, 1, 2);
-  const std::string folder = ::testing::TempDir() + "limbcast_simulate_truth";
-  FrameFolder(folder, params).write(frame);
+  const test::TemporaryFolder folder;
+  FrameFolder(folder.path(), params).write(frame);
 
-  const BodyPoses read = read_ground_truth(folder + "/" + frame.scenario.name + "_gt.json");
+  const BodyPoses read = read_ground_truth(folder / (frame.scenario.name + "_gt.json"));
   const BodyPoses sent = truth_poses(frame.scenario, params.camera, {});
 
   ASSERT_EQ(read.persons.size(), sent.persons.size());
@@ -107,7 +107,6 @@ TEST(FrameMessages, TheTruthIsThatOfTheFolder) {
     EXPECT_EQ(read.persons[i].pointing[0].side, sent.persons[i].pointing[0].side);
     EXPECT_EQ(read.persons[i].pointing[0].confidence, sent.persons[i].pointing[0].confidence);
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(FrameMessages, RestampingChangesTimeAndNumberOfAll) {

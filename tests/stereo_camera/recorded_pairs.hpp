@@ -40,11 +40,10 @@ inline void write_pairs(const std::string& folder, int frames, std::int64_t peri
     const std::string name = "frame_" + std::to_string(i);
     const std::string stem = std::string(folder).append("/").append(name);
     const int level = 40 + 5 * i;
-    testing::write_bytes(stem + "_left.jpg",
-                         encode_jpeg(testing::grey_picture(kWidth, kHeight, level), 95));
-    testing::write_bytes(
-        stem + "_right.jpg",
-        encode_jpeg(testing::grey_picture(kWidth, kHeight, level + kRightLighter), 95));
+    test::write_bytes(stem + "_left.jpg",
+                      encode_jpeg(test::grey_picture(kWidth, kHeight, level), 95));
+    test::write_bytes(stem + "_right.jpg",
+                      encode_jpeg(test::grey_picture(kWidth, kHeight, level + kRightLighter), 95));
     times.append(name)
         .append(",")
         .append(std::to_string(1'000'000'000 + i * period_us))

@@ -35,6 +35,20 @@ int exit_code_of(int status) {
   _exit(kCannotExecute);
 }
 
+/// Holds the folders of this process's tests. They stay for a look where a test failed.
+class ProcessFolder {
+ public:
+  ~ProcessFolder() {
+    std::error_code ignored;
+    if (::testing::UnitTest::GetInstance()->Passed()) std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  const std::filesystem::path path_ =
+      std::filesystem::path(::testing::TempDir()) / ("limbcast." + std::to_string(getpid()));
+};
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& output,
@@ -98,8 +112,8 @@ std::string temporary_folder(const std::string& name) {
       info == nullptr ? "no_test" : std::string(info->test_suite_name()) + "." + info->name();
   for (char& c : test)
     if (c == '/') c = '_';
-  const auto folder = std::filesystem::path(::testing::TempDir()) /
-                      ("limbcast." + std::to_string(getpid())) / test / name;
+  static const ProcessFolder process_folder;
+  const auto folder = process_folder.path() / test / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder.string();

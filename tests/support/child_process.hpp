@@ -43,7 +43,7 @@ RunResult run(const std::vector<std::string>& command);
 std::string program(const std::string& name);
 /// A file of the repository, e.g. repository_file("logs/demo.log").
 std::string repository_file(const std::string& path);
-/// A folder of this test alone, empty.
+/// A folder of this test alone, empty. Removed when the test program ends, unless a test failed.
 std::string temporary_folder(const std::string& name);
 /// LCM URL of this test alone (by process id), on this host only.
 std::string private_lcm_url();

@@ -13,9 +13,9 @@
 namespace limbcast::viewer {
 namespace {
 
-using limbcast::testing::Outcome;
-using limbcast::testing::run_program;
-using limbcast::testing::TemporaryFolder;
+using limbcast::test::Outcome;
+using limbcast::test::run_program;
+using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
 Outcome view(const std::vector<std::string>& arguments) {

@@ -8,15 +8,15 @@
 
 #include "common/camera/yaml_reader.hpp"
 #include "common/input_error.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
+using test::error_of;
+using test::TemporaryFolder;
 using ::testing::AllOf;
-using testing::error_of;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 using Entries = std::map<std::string, std::string>;
 

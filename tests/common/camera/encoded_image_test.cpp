@@ -6,12 +6,12 @@
 #include <opencv2/core.hpp>
 
 #include "common/input_error.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
-using testing::error_of;
+using test::error_of;
 using ::testing::HasSubstr;
 
 cv::Mat ramp(int type) {
@@ -85,7 +85,7 @@ TEST(EncodedImage, TornFilesAreRecognisedWhereverTheyEnd) {
 }
 
 TEST(EncodedImage, OtherFilesAreNamed) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string text = folder.write("a_left.jpg", "this is no picture");
   EXPECT_THAT(error_of<InputError>([&] { read_encoded_image(text); }),
               HasSubstr("a_left.jpg: is neither JPEG nor PNG"));

@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "common/input_error.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
-using testing::error_of;
+using test::error_of;
+using test::TemporaryFolder;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 class GroundTruth : public ::testing::Test {
  protected:

@@ -2,16 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/input_error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
@@ -27,16 +25,11 @@ nlohmann::json read_json(const std::string& name) {
 /// A model file that ends with the test.
 class ModelFile {
  public:
-  explicit ModelFile(const std::string& text) {
-    std::string name = "/tmp/limbcast_model_XXXXXX";
-    close(mkstemp(name.data()));
-    path_ = name;
-    std::ofstream(path_) << text;
-  }
-  ~ModelFile() { std::filesystem::remove(path_); }
+  explicit ModelFile(const std::string& text) : path_(folder_.write("model.json", text)) {}
   const std::string& path() const { return path_; }
 
  private:
+  const test::TemporaryFolder folder_;
   std::string path_;
 };
 

@@ -6,18 +6,18 @@
 #include <opencv2/core.hpp>
 
 #include "common/input_error.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
 #include "tests/common/sources/test_pictures.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
-using testing::depth_format;
-using testing::error_of;
-using testing::grey_picture;
+using test::depth_format;
+using test::error_of;
+using test::grey_picture;
+using test::stereo_format;
+using test::write_bytes;
 using ::testing::HasSubstr;
-using testing::stereo_format;
-using testing::write_bytes;
 
 class FolderSourceTest : public ::testing::Test {
  protected:
@@ -30,7 +30,7 @@ class FolderSourceTest : public ::testing::Test {
     FolderSource source(folder_.path(), format, {});
     return error_of<InputError>([&] { source.next(); });
   }
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(FolderSourceTest, HandsJpegFilesOnByteByByte) {

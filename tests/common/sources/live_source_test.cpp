@@ -6,21 +6,21 @@
 #include <thread>
 
 #include "common/input_error.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
 #include "tests/common/sources/played_camera.hpp"
 #include "tests/common/sources/test_pictures.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
 using std::chrono::milliseconds;
+using test::error_of;
+using test::grey_picture;
+using test::level_of;
+using test::PlayedCamera;
+using test::stereo_format;
 using ::testing::ElementsAre;
-using testing::error_of;
-using testing::grey_picture;
 using ::testing::HasSubstr;
-using testing::level_of;
-using testing::PlayedCamera;
-using testing::stereo_format;
 
 /// Long enough for any thread to be scheduled; a test that waits so long has failed.
 constexpr milliseconds kForEver{20000};

@@ -9,7 +9,7 @@
 
 #include "common/sources/live_capture.hpp"
 
-namespace limbcast::testing {
+namespace limbcast::test {
 
 /// A camera that the test plays: gives what `push` gave, fails where `end` was called.
 class PlayedCamera {
@@ -52,4 +52,4 @@ class PlayedCamera {
   std::shared_ptr<Queue> queue_ = std::make_shared<Queue>();
 };
 
-}  // namespace limbcast::testing
+}  // namespace limbcast::test

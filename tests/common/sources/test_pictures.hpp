@@ -7,7 +7,7 @@
 #include "common/camera/encoded_image.hpp"
 #include "common/sources/pair_source.hpp"
 
-namespace limbcast::testing {
+namespace limbcast::test {
 
 inline void write_bytes(const std::string& path, const EncodedImage& image) {
   std::ofstream file(path, std::ios::binary);
@@ -33,4 +33,4 @@ inline PairFormat depth_format(int width = 64, int height = 48) {
   return {{"color", "depth"}, true, width, height, "rgbd", "rgbd/color_optical", 95};
 }
 
-}  // namespace limbcast::testing
+}  // namespace limbcast::test

@@ -6,19 +6,19 @@
 #include "common/input_error.hpp"
 #include "common/sources/open_source.hpp"
 #include "common/sources/video_source.hpp"
-#include "tests/common/camera/temporary_folder.hpp"
 #include "tests/common/sources/test_pictures.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
-using testing::depth_format;
-using testing::error_of;
-using testing::grey_picture;
+using test::depth_format;
+using test::error_of;
+using test::grey_picture;
+using test::level_of;
+using test::stereo_format;
+using test::TemporaryFolder;
 using ::testing::HasSubstr;
-using testing::level_of;
-using testing::stereo_format;
-using testing::TemporaryFolder;
 
 /// JPEG, twice, is not exact on flat pictures either.
 constexpr int kLevelTolerance = 3;

@@ -8,9 +8,10 @@
 #include <stdexcept>
 #include <string>
 
-namespace limbcast::testing {
+namespace limbcast::test {
 
-/// An empty folder that is removed with the test.
+/// An empty folder that is removed with the object (test::temporary_folder: one that stays where a
+/// test fails).
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -47,4 +48,4 @@ std::string error_of(Action action) {
   return "";
 }
 
-}  // namespace limbcast::testing
+}  // namespace limbcast::test
