@@ -243,7 +243,7 @@ void run(int argc, const char* const* argv) {
       "limbcast-viewer",
       "Draws clouds, segments and poses: pictures, a video, or a window (space: pause, s "
       "and a: one frame on and back, q: quit; a slider over a log; drag or i j k l: look from "
-      "elsewhere, + and -: nearer and farther, r: as at the start, v: the people alone).");
+      "elsewhere, wheel or + and -: nearer and farther, r: as at the start, v: the people alone).");
   parser.add_positional("[LOG]", options.log,
                         "log made by limbcast-replay or lcm-logger; default: live");
   parser.add(section);

@@ -6,7 +6,7 @@
 namespace limbcast::viewer {
 namespace {
 
-/// How far a key turns [degrees], and by what factor it goes nearer.
+/// How far a key turns [degrees], and by what factor a key or a notch of the wheel goes nearer.
 constexpr float kStep_deg = 5.0F, kStepZoom = 1.2F;
 /// Across the whole window the mouse turns once around, and from straight above to straight below.
 constexpr float kWidth_deg = 360.0F, kHeight_deg = 180.0F;
@@ -24,11 +24,9 @@ void OrbitControl::apply(Look look) {
     case Look::kDown:
       return turn(0.0F, -kStep_deg);
     case Look::kNearer:
-      orbit_.zoom = std::min(orbit_.zoom * kStepZoom, kMaxZoom);
-      return;
+      return approach(1.0F);
     case Look::kFarther:
-      orbit_.zoom = std::max(orbit_.zoom / kStepZoom, kMinZoom);
-      return;
+      return approach(-1.0F);
     case Look::kAsAtStart:
       orbit_ = start_;
       return;
@@ -39,9 +37,15 @@ void OrbitControl::drag(float width_share, float height_share) {
   turn(-kWidth_deg * width_share, kHeight_deg * height_share);
 }
 
+void OrbitControl::turn_wheel(float notches) { approach(notches); }
+
 void OrbitControl::turn(float right_deg, float up_deg) {
   orbit_.azimuth_deg = std::remainder(orbit_.azimuth_deg + right_deg, 360.0F);
   orbit_.elevation_deg = std::clamp(orbit_.elevation_deg + up_deg, -90.0F, 90.0F);
+}
+
+void OrbitControl::approach(float steps) {
+  orbit_.zoom = std::clamp(orbit_.zoom * std::pow(kStepZoom, steps), kMinZoom, kMaxZoom);
 }
 
 }  // namespace limbcast::viewer

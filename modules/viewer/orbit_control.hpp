@@ -16,11 +16,14 @@ class OrbitControl {
   /// The mouse was dragged by a share of the window's size (right and down positive): what is near
   /// goes with it.
   void drag(float width_share, float height_share);
+  /// The wheel was turned by so many notches; away from the user is nearer to the people.
+  void turn_wheel(float notches);
 
   const Orbit& orbit() const { return orbit_; }
 
  private:
   void turn(float right_deg, float up_deg);
+  void approach(float steps);
 
   Orbit start_, orbit_;
 };

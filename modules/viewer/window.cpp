@@ -38,6 +38,10 @@ Window::Window(const Orbit& orbit) : control_(orbit) {
         "there is no display for a window; write files with --png DIR or --video FILE");
   cv::namedWindow(kTitle, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
   cv::setMouseCallback(kTitle, &Window::on_mouse, this);
+  wheel_ = std::make_unique<Wheel>([this](float notches) {
+    control_.turn_wheel(notches);
+    outdated_ = true;
+  });
 }
 
 Window::~Window() { cv::destroyAllWindows(); }

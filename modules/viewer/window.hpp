@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <opencv2/core/types.hpp>
 #include <optional>
 
 #include "modules/viewer/orbit_control.hpp"
 #include "modules/viewer/playback.hpp"
 #include "modules/viewer/view_frame.hpp"
+#include "modules/viewer/wheel.hpp"
 
 namespace limbcast::viewer {
 
@@ -35,6 +37,7 @@ class Window {
   void drag_to(cv::Point pixel, bool pressed);
   void draw();
 
+  std::unique_ptr<Wheel> wheel_;
   int slider_frame_ = 0;  ///< where the program has put it
   std::function<void(int)> on_slider_move_;
   std::optional<ViewFrame> frame_;

@@ -92,6 +92,12 @@ void VirtualDisplay::drag(cv::Point from, cv::Point to) const {
         "mousemove", std::to_string(to.x), std::to_string(to.y), "mouseup", "1"});
 }
 
+void VirtualDisplay::turn_wheel(cv::Point pixel, bool up) const {
+  // X calls the wheel buttons 4 and 5.
+  tool({"xdotool", "mousemove", std::to_string(pixel.x), std::to_string(pixel.y), "click",
+        up ? "4" : "5"});
+}
+
 cv::Mat VirtualDisplay::screenshot() const {
   // The first attempt fails now and then on a busy machine while windows move.
   constexpr int kMostAttempts = 30;

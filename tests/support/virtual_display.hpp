@@ -33,6 +33,8 @@ class VirtualDisplay {
   void double_click(cv::Point pixel) const;
   /// With the left button.
   void drag(cv::Point from, cv::Point to) const;
+  /// One notch; away from the user is up.
+  void turn_wheel(cv::Point pixel, bool up) const;
   /// The whole screen, 8-bit BGR.
   cv::Mat screenshot() const;
 

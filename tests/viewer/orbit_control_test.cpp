@@ -29,6 +29,18 @@ TEST(OrbitControl, TurnsWhatIsNearWithTheMouse) {
   EXPECT_FLOAT_EQ(control.orbit().elevation_deg, 45.0F);
 }
 
+TEST(OrbitControl, GoesNearerByNotchesOfTheWheelAndPartsOfThem) {
+  OrbitControl control({}), pressed({});
+  pressed.apply(Look::kNearer);
+  control.turn_wheel(0.5F);
+  control.turn_wheel(0.5F);
+  EXPECT_FLOAT_EQ(control.orbit().zoom, pressed.orbit().zoom);
+  control.turn_wheel(-1.0F);
+  EXPECT_FLOAT_EQ(control.orbit().zoom, 1.0F);
+  control.turn_wheel(99.0F);
+  EXPECT_FLOAT_EQ(control.orbit().zoom, kMaxZoom);
+}
+
 TEST(OrbitControl, GoesRoundAndRoundButNotOverTheTop) {
   OrbitControl control({0.0F, 0.0F});
   control.drag(-0.75F, 5.0F);

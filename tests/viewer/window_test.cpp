@@ -148,5 +148,19 @@ TEST_F(ViewerWindow, TurnsWithTheMouseAndByKeys) {
   EXPECT_TRUE(arm_comes_to_be_after("minus", cvRound(2 * across_px / 1.2), whole));
 }
 
+TEST_F(ViewerWindow, GoesNearerWithTheWheelAndMagnifiesNoPixels) {
+  const cv::Rect scene(240, 180, 240, 180);
+  ASSERT_TRUE(comes_to_show(0)) << viewer_->output();
+  const int across_px = arm_in(scene).width;
+  ASSERT_GT(across_px, 30);
+
+  display_->turn_wheel({360, 270}, true);
+  EXPECT_TRUE(arm_comes_to_be(cvRound(1.2 * across_px), scene));
+  // Were the sheet magnified too, the first picture would be elsewhere.
+  EXPECT_TRUE(shows(0));
+  display_->turn_wheel({360, 270}, false);
+  EXPECT_TRUE(arm_comes_to_be(across_px, scene));
+}
+
 }  // namespace
 }  // namespace limbcast::viewer
