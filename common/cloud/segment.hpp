@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
+#include "common/human_model/joints.hpp"
 
 namespace limbcast {
 
@@ -59,6 +60,22 @@ struct FaceEvidence {
   float looks_right_log_odds = 0.0F;
 };
 
+/// One joint of a person as a network sees it in the colour image.
+struct ImageJoint {
+  Joint joint = Joint::kHead;
+  Eigen::Vector2f px = Eigen::Vector2f::Zero();  ///< in the cloud's lattice, or beyond its edge
+  float visibility = 0.0F;  ///< 0 to 1, how sure the joint is in sight and there
+  /// How much farther along the optical axis than the hips' middle; rough: of one wrist
+  /// in eight the sign is wrong.
+  float behind_hips_m = 0.0F;
+};
+
+/// A person as a network for poses sees it in the colour image.
+struct ImagePose {
+  float person_score = 0.0F;       ///< 0 to 1, how sure the network is that somebody is there
+  std::vector<ImageJoint> joints;  ///< those that the network knows, each once
+};
+
 /// One person candidate: a cluster of points grown from a seed.
 struct Segment {
   std::int32_t id = 0;                               ///< number within the frame
@@ -66,6 +83,7 @@ struct Segment {
   SeedKind seed_kind = SeedKind::kSkin;
   float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head (kBody: of a person)
   FaceEvidence face;
+  std::optional<ImagePose> image_pose;  ///< nothing where nobody looked
   SegmentFilter rejected_by = SegmentFilter::kNone;
   float filter_figure = 0.0F;             ///< what the rejecting filter measured
   float filter_limit = 0.0F;              ///< against what

@@ -1,7 +1,9 @@
 #include "common/lcm_io/segments_codec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "common/lcm_io/compression.hpp"
 #include "common/lcm_io/message_error.hpp"
@@ -13,6 +15,8 @@ namespace limbcast::lcm_io {
 namespace {
 
 constexpr int kMaxWindowSide = 8192;
+/// A joint of somebody close by may lie far beyond the image's edge; nothing lies farther [px].
+constexpr float kFarthestJoint_px = 1e6F;
 constexpr std::int32_t kMaxSegmentPoints = 8'000'000;
 constexpr std::uint8_t kLabelMask = 0x03;
 constexpr std::uint8_t kSkinBit = 0x04;
@@ -131,6 +135,43 @@ void read_points_of_window(Segment& segment) {
   }
 }
 
+image_pose_t to_message(const ImagePose& pose) {
+  image_pose_t message{};
+  message.person_score = pose.person_score;
+  for (const ImageJoint& joint : pose.joints) {
+    image_joint_t& joint_message = message.joints.emplace_back();
+    joint_message.joint = static_cast<std::int8_t>(index(joint.joint));
+    joint_message.u = joint.px.x();
+    joint_message.v = joint.px.y();
+    joint_message.visibility = joint.visibility;
+    joint_message.behind_hips_m = joint.behind_hips_m;
+  }
+  message.num_joints = static_cast<std::int32_t>(message.joints.size());
+  return message;
+}
+
+bool is_share(float value) { return value >= 0.0F && value <= 1.0F; }
+
+ImagePose from_message(const image_pose_t& message) {
+  require(is_share(message.person_score),
+          "segments: score of a person of an image is out of range");
+  ImagePose pose;
+  pose.person_score = message.person_score;
+  std::array<bool, kJointCount> told{};
+  for (const image_joint_t& joint : message.joints) {
+    require(joint.joint >= 0 && joint.joint < kJointCount, "segments: unknown joint of an image");
+    require(!std::exchange(told[joint.joint], true), "segments: a joint of an image is told twice");
+    require(std::abs(joint.u) <= kFarthestJoint_px && std::abs(joint.v) <= kFarthestJoint_px &&
+                is_share(joint.visibility) && std::abs(joint.behind_hips_m) <= kFarthest_m,
+            "segments: a joint of an image is out of range");
+    pose.joints.push_back({static_cast<Joint>(joint.joint),
+                           {joint.u, joint.v},
+                           joint.visibility,
+                           joint.behind_hips_m});
+  }
+  return pose;
+}
+
 segment_t to_message(const Segment& segment, const DepthNoise& noise) {
   segment_t message{};
   message.id = segment.id;
@@ -139,6 +180,8 @@ segment_t to_message(const Segment& segment, const DepthNoise& noise) {
   message.seed_score = segment.seed_score;
   message.facing_log_odds = segment.face.facing_log_odds;
   message.looks_right_log_odds = segment.face.looks_right_log_odds;
+  if (segment.image_pose) message.image_poses.push_back(to_message(*segment.image_pose));
+  message.num_image_poses = static_cast<std::int32_t>(message.image_poses.size());
   message.rejected_by = static_cast<std::int8_t>(segment.rejected_by);
   message.filter_figure = segment.filter_figure;
   message.filter_limit = segment.filter_limit;
@@ -161,6 +204,8 @@ Segment from_message(const segment_t& message) {
   require(std::isfinite(message.facing_log_odds) && std::isfinite(message.looks_right_log_odds),
           "segments: odds of a face are not finite");
   segment.face = {message.facing_log_odds, message.looks_right_log_odds};
+  require(message.image_poses.size() <= 1, "segments: more than one person of the image");
+  if (!message.image_poses.empty()) segment.image_pose = from_message(message.image_poses.front());
   require(
       message.rejected_by >= segment_t::VALID && message.rejected_by <= segment_t::NOT_HEAD_SHAPED,
       "segments: unknown 'rejected_by'");

@@ -19,8 +19,17 @@ if(NOT TARGET limbcast_lcmtypes_jar)
   list(REMOVE_ITEM CPACK_COMPONENTS_ALL java)
 endif()
 
+# The programs carry the pose network, which has a licence of its own.
+file(READ LICENSE limbcast_license)
+file(READ modules/segmenter/models/NOTICE network_notice)
+file(READ modules/segmenter/models/LICENSE.Apache-2.0 network_license)
+file(CONFIGURE OUTPUT copyright_of_tools CONTENT "${limbcast_license}\n${network_notice}\n${network_license}" @ONLY)
 foreach(package tools dev java)
-  install(FILES LICENSE RENAME copyright
+  set(copyright LICENSE)
+  if(package STREQUAL tools)
+    set(copyright "${CMAKE_CURRENT_BINARY_DIR}/copyright_of_tools")
+  endif()
+  install(FILES "${copyright}" RENAME copyright
           DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/limbcast-${package}" COMPONENT ${package})
 endforeach()
 

@@ -6,6 +6,7 @@
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
+#include "modules/segmenter/instance_pool.hpp"
 #include "modules/segmenter/params.hpp"
 
 namespace limbcast::segmenter {
@@ -27,10 +28,9 @@ class FaceFinder {
 
  private:
   class Cascades;
-  class Pool;
 
   FaceParams params_;
-  std::unique_ptr<Pool> pool_;
+  std::unique_ptr<InstancePool<Cascades>> cascades_;
   std::string problem_;
 };
 

@@ -68,7 +68,8 @@ void reject(const Rejection& rejection, Segment& segment) {
 
 }  // namespace
 
-Segmenter::Segmenter(const Params& params) : params_(params), faces_(params.faces) {}
+Segmenter::Segmenter(const Params& params)
+    : params_(params), faces_(params.faces), pose_network_(params.pose_network) {}
 
 Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step) {
   step = std::max(1, static_cast<int>(std::lround(cloud.camera->fx / kLatticeFocal_px)));
@@ -199,10 +200,12 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
     if (!segment.valid()) continue;
+    const auto label = static_cast<std::int16_t>(k);
+    const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
     // A head that is out of sight shows no face: that tells nothing.
     if (segment.seed_kind != SeedKind::kBody)
-      segment.face = faces_.look(scene.cloud, behind_surface(segment.seed_m), scene.lattice.up);
-    const auto label = static_cast<std::int16_t>(k);
+      segment.face = faces_.look(scene.cloud, head_m, scene.lattice.up);
+    segment.image_pose = pose_network_.look(scene.cloud, {labels, label, head_m}, down);
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);
     else

@@ -11,6 +11,7 @@
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
+#include "modules/segmenter/pose_network.hpp"
 #include "modules/segmenter/skin_color.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
 
@@ -60,6 +61,7 @@ class Segmenter {
   HeadClassifier classifier_;
   BodyClassifier bodies_;
   FaceFinder faces_;
+  PoseNetwork pose_network_;
   SurfaceClassifier surfaces_;
 };
 

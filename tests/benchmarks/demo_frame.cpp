@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
 #include "modules/reconstructor/stage.hpp"
@@ -13,18 +15,18 @@ namespace {
 DemoFrame read_demo_frame() {
   reconstructor::Stage stage{reconstructor::StageOptions{}};
   lcm_io::LogReader log(repository_file("logs/demo.log"));
+  DemoFrame frame;
   while (const auto event = log.next()) {
-    const int size = static_cast<int>(event->data.size());
     if (event->channel == "STEREO_CALIBRATION") {
-      stereo_calibration_t calibration;
-      if (calibration.decode(event->data.data(), 0, size) == size)
-        stage.on_calibration(calibration);
+      stage.on_calibration(lcm_io::decode<stereo_calibration_t>(event->data));
     } else if (event->channel == "STEREO_IMAGES") {
-      stereo_images_t message;
-      if (message.decode(event->data.data(), 0, size) != size) continue;
-      const StereoImages images = lcm_io::from_message(message);
-      return {images, stage.find(images.stamp.sensor)->reconstruct(images)};
+      frame.images = lcm_io::from_message(lcm_io::decode<stereo_images_t>(event->data));
+      frame.cloud = stage.find(frame.images.stamp.sensor)->reconstruct(frame.images);
+    } else if (event->channel == "GROUND_TRUTH") {
+      frame.truth = lcm_io::from_message(lcm_io::decode<body_poses_t>(event->data));
     }
+    if (!frame.truth.persons.empty() && frame.truth.stamp.utime == frame.cloud.stamp.utime)
+      return frame;
   }
   throw std::runtime_error("logs/demo.log holds no frame");
 }

@@ -2,13 +2,15 @@
 
 #include "common/camera/images.hpp"
 #include "common/cloud/cloud.hpp"
+#include "common/human_model/body_pose.hpp"
 
 namespace limbcast::test {
 
-/// The first frame of the demo log: its images and the cloud made from them.
+/// The first frame of the demo log: its images, the cloud made from them, and the truth.
 struct DemoFrame {
   StereoImages images;
   Cloud cloud;
+  BodyPoses truth;
 };
 
 /// Read once.

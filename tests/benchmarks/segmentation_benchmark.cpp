@@ -14,6 +14,7 @@
 #include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/neighbor_search.hpp"
 #include "modules/segmenter/paper_growing.hpp"
+#include "modules/segmenter/pose_network.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "modules/segmenter/skin_color.hpp"
 #include "tests/benchmarks/demo_frame.hpp"
@@ -66,6 +67,26 @@ void look_for_a_face(benchmark::State& state, float below_m) {
 }
 BENCHMARK_CAPTURE(look_for_a_face, face, 0.0F)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(look_for_a_face, no_face, 0.5F)->Unit(benchmark::kMillisecond);
+
+/// The pose network at the first person, with so many of OpenCV's threads.
+void see_joints(benchmark::State& state, int threads) {
+  const int before = cv::getNumThreads();
+  cv::setNumThreads(threads);
+  const PoseNetwork network({});
+  const std::vector<std::int16_t> labels(cloud().points_m.size(), kNobody);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        network.look(cloud(), {labels, 0, seed_m()}, cloud().stamp.gravity.down));
+  cv::setNumThreads(before);
+}
+BENCHMARK_CAPTURE(see_joints, one_thread, 1)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(see_joints, two_threads, 2)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 using MakeSearch = std::unique_ptr<NeighborSearch> (*)(const Cloud&);
 

@@ -107,6 +107,33 @@ TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
         "neither points nor window"}});
 }
 
+TEST(CodecRefusals, NameWhatIsWrongWithAPersonOfAnImage) {
+  using Message = segments_t;
+  const auto pose = [](Message& m) -> image_pose_t& { return m.segments[0].image_poses[0]; };
+  const auto joint = [=](Message& m) -> image_joint_t& { return pose(m).joints[1]; };
+  const std::string score = "score of a person of an image", known = "unknown joint",
+                    range = "joint of an image is out of range";
+  expect_refused<Message>(
+      segments_message(),
+      {{[=](Message& m) { m.segments[0].image_poses.push_back(pose(m)); },
+        "more than one person of the image"},
+       {[=](Message& m) { pose(m).person_score = -0.1F; }, score},
+       {[=](Message& m) { pose(m).person_score = 1.1F; }, score},
+       {[=](Message& m) { pose(m).person_score = kNaN; }, score},
+       {[=](Message& m) { joint(m).joint = -1; }, known},
+       {[=](Message& m) { joint(m).joint = kJointCount; }, known},
+       {[=](Message& m) { joint(m).joint = pose(m).joints[0].joint; }, "told twice"},
+       {[=](Message& m) { joint(m).u = kNaN; }, range},
+       {[=](Message& m) { joint(m).v = kInfinity; }, range},
+       {[=](Message& m) { joint(m).u = -1.1e6F; }, range},
+       {[=](Message& m) { joint(m).v = 3e38F; }, range},
+       {[=](Message& m) { joint(m).visibility = -0.1F; }, range},
+       {[=](Message& m) { joint(m).visibility = 1.1F; }, range},
+       {[=](Message& m) { joint(m).visibility = kNaN; }, range},
+       {[=](Message& m) { joint(m).behind_hips_m = kNaN; }, range},
+       {[=](Message& m) { joint(m).behind_hips_m = 1e5F; }, range}});
+}
+
 TEST(CodecRefusals, NameWhatIsWrongWithACalibration) {
   using Message = stereo_calibration_t;
   const std::string size = "image size", focal = "focal length or principal point",

@@ -62,9 +62,19 @@ TEST_F(Packages, HoldTypesForCppAndJava) {
   }
 }
 
+TEST_F(Packages, TellTheLicenceOfThePoseNetwork) {
+  const auto copyright = run({"sh", "-c",
+                              "dpkg-deb --fsys-tarfile " + folder_.string() +
+                                  "/limbcast-tools_*.deb | tar -xO "
+                                  "./usr/share/doc/limbcast-tools/copyright"});
+  for (const char* text : {"BSD 3-Clause", "BlazePose", "Apache License"})
+    EXPECT_THAT(copyright.output, HasSubstr(text));
+}
+
 TEST_F(Packages, NameWhatTheyNeed) {
   const std::string tools = tell("--info", "limbcast-tools");
   EXPECT_THAT(tools, HasSubstr("libopencv-core406"));
+  EXPECT_THAT(tools, HasSubstr("libopencv-dnn406"));
   EXPECT_THAT(tools, HasSubstr("liblcm-bin"));
   EXPECT_THAT(tools, HasSubstr("opencv-data"));
   EXPECT_THAT(tools, HasSubstr("conffiles"));

@@ -3,15 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/core.hpp>
 #include <thread>
 #include <vector>
 
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/segmenter/turned_cloud.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::segmenter {
@@ -26,31 +27,12 @@ bool tell_the_same(const FaceEvidence& a, const FaceEvidence& b) {
   return a.facing_log_odds == b.facing_log_odds && a.looks_right_log_odds == b.looks_right_log_odds;
 }
 
-/// The cloud's colours, to be changed in place.
-cv::Mat3b image_of(Cloud& cloud) {
-  return {cloud.height, cloud.width, reinterpret_cast<cv::Vec3b*>(cloud.colors.data())};
-}
-
 /// The cloud as a mirror shows it.
 Cloud mirrored(Cloud cloud) {
-  cv::Mat3b image = image_of(cloud);
-  cv::flip(image, image, 1);
+  for (auto row = cloud.colors.begin(); row != cloud.colors.end(); row += cloud.width)
+    std::reverse(row, row + cloud.width);
   cloud.camera->cx = cloud.width - 1 - cloud.camera->cx;
   return cloud;
-}
-
-/// The cloud of a camera that is turned by a quarter about its optical axis: its columns run down.
-Cloud turned(Cloud cloud) {
-  Cloud result = cloud;
-  std::swap(result.width, result.height);
-  result.camera->width = result.width;
-  result.camera->height = result.height;
-  result.camera->cx = cloud.camera->cy;
-  result.camera->cy = cloud.width - 1 - cloud.camera->cx;
-  const cv::Mat3b upright = image_of(cloud);
-  cv::Mat3b image = image_of(result);
-  cv::rotate(upright, image, cv::ROTATE_90_COUNTERCLOCKWISE);
-  return result;
 }
 
 /// Two people of the demo log's first frame, the first of whom looks at the camera.
@@ -78,7 +60,7 @@ TEST_F(FacesOfTheDemo, AreNotSeenAtTheTrunk) {
 }
 
 TEST_F(FacesOfTheDemo, AreSeenByACameraThatHangsSideways) {
-  const Eigen::Vector3f head_m(head_m_.y(), -head_m_.x(), head_m_.z());
+  const Eigen::Vector3f head_m = turned(head_m_);
   const Cloud sideways = turned(cloud_);
   EXPECT_GE(look(sideways, head_m, {-1.0F, 0.0F}).facing_log_odds, params_.some_hits_log_odds);
   EXPECT_EQ(look(sideways, head_m, kUpPx).facing_log_odds, params_.no_hit_log_odds);

@@ -1,0 +1,190 @@
+#include "modules/segmenter/pose_network.hpp"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/dnn.hpp>
+#include <stdexcept>
+#include <string>
+
+// Beginning and end of what pose_network_model.S holds.
+extern "C" {
+extern const char limbcast_pose_network_begin[];
+extern const char limbcast_pose_network_end[];
+}
+
+namespace limbcast::segmenter {
+namespace {
+
+/// Side of the square that the network takes [px].
+constexpr int kInput_px = 256;
+/// The square may not be wider [px]: so near to the camera its places are no numbers to work with.
+constexpr float kLongestSide_px = 1e5F;
+
+// The network's landmarks: 33 of the body (models/README.md), 6 for its authors' tracking.
+constexpr int kLandmarks = 39;
+constexpr int kLeftEar = 7, kRightEar = 8;
+struct JointLandmark {
+  Joint joint;
+  int landmark;
+};
+constexpr std::array<JointLandmark, 12> kJointLandmarks = {{{Joint::kShoulderLeft, 11},
+                                                            {Joint::kShoulderRight, 12},
+                                                            {Joint::kElbowLeft, 13},
+                                                            {Joint::kElbowRight, 14},
+                                                            {Joint::kWristLeft, 15},
+                                                            {Joint::kWristRight, 16},
+                                                            {Joint::kHipLeft, 23},
+                                                            {Joint::kHipRight, 24},
+                                                            {Joint::kKneeLeft, 25},
+                                                            {Joint::kKneeRight, 26},
+                                                            {Joint::kAnkleLeft, 27},
+                                                            {Joint::kAnkleRight, 28}}};
+
+/// The model as OpenCV reads it.
+std::vector<uchar> unpack_model() {
+  const auto size =
+      static_cast<std::size_t>(limbcast_pose_network_end - limbcast_pose_network_begin);
+  std::vector<uchar> model(ZSTD_getFrameContentSize(limbcast_pose_network_begin, size));
+  const std::size_t unpacked =
+      ZSTD_decompress(model.data(), model.size(), limbcast_pose_network_begin, size);
+  if (unpacked != model.size())
+    throw std::runtime_error("the pose network that limbcast was built with is damaged");
+  return model;
+}
+
+cv::dnn::Net read_network() {
+  try {
+    return cv::dnn::readNetFromONNX(unpack_model());
+  } catch (const cv::Exception& error) {
+    throw std::runtime_error(
+        "this OpenCV does not read the pose network (Debian 12's does); run without it "
+        "(pose-network=false): " +
+        error.err);
+  }
+}
+
+float sigmoid(float x) { return 1.0F / (1.0F + std::exp(-x)); }
+
+/// What the network tells of a person, in the pixels of its input.
+struct Landmarks {
+  // One row a landmark: column, row, depth [px], visibility, presence [log odds].
+  cv::Mat1f in_input;
+  // One row a landmark: right, down, away [m], from the middle of the hips.
+  cv::Mat1f in_world;
+  float score = 0.0F;
+
+  Eigen::Vector2f px(int landmark) const { return {in_input(landmark, 0), in_input(landmark, 1)}; }
+  float visibility(int landmark) const {
+    return sigmoid(in_input(landmark, 3)) * sigmoid(in_input(landmark, 4));
+  }
+  float behind_hips_m(int landmark) const { return in_world(landmark, 2); }
+};
+
+/// The head is where the middle of the ears is; the nearer one is seen.
+ImageJoint head_of(const Landmarks& landmarks) {
+  return {Joint::kHead, 0.5F * (landmarks.px(kLeftEar) + landmarks.px(kRightEar)),
+          std::max(landmarks.visibility(kLeftEar), landmarks.visibility(kRightEar)),
+          0.5F * (landmarks.behind_hips_m(kLeftEar) + landmarks.behind_hips_m(kRightEar))};
+}
+
+ImagePose to_pose(const Landmarks& landmarks, const Eigen::Affine2f& image_from_input) {
+  ImagePose pose;
+  pose.person_score = landmarks.score;
+  pose.joints.push_back(head_of(landmarks));
+  for (const auto& [joint, landmark] : kJointLandmarks)
+    pose.joints.push_back({joint, landmarks.px(landmark), landmarks.visibility(landmark),
+                           landmarks.behind_hips_m(landmark)});
+  for (ImageJoint& joint : pose.joints) joint.px = image_from_input * joint.px;
+  return pose;
+}
+
+/// The part of the image that a square needs; empty where the square lies outside.
+cv::Rect part_around(const UprightSquare& square, const cv::Size& image) {
+  constexpr float kNeighbor_px = 1.0F;  // of the last pixel, for interpolation
+  const float reach_px = 0.5F * square.side_px * square.down.lpNorm<1>() + kNeighbor_px;
+  const auto clamped = [&](float place_px, int size_px) {
+    return static_cast<int>(std::clamp(place_px, 0.0F, static_cast<float>(size_px)));
+  };
+  const int left = clamped(std::floor(square.center_px.x() - reach_px), image.width);
+  const int right = clamped(std::ceil(square.center_px.x() + reach_px) + 1.0F, image.width);
+  const int top = clamped(std::floor(square.center_px.y() - reach_px), image.height);
+  const int bottom = clamped(std::ceil(square.center_px.y() + reach_px) + 1.0F, image.height);
+  return {left, top, right - left, bottom - top};
+}
+
+/// A part of the cloud's image without other people.
+cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
+                            const cv::Rect& part) {
+  const cv::Vec3b gray(128, 128, 128);
+  cv::Mat3b image = color_image(cloud)(part).clone();
+  for (int v = 0; v < part.height; ++v) {
+    const std::int16_t* labels =
+        person.labels.data() + static_cast<std::size_t>(part.y + v) * cloud.width + part.x;
+    for (int u = 0; u < part.width; ++u) {
+      if (labels[u] >= 0 && labels[u] != person.label) image(v, u) = gray;
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+/// The network of one thread: OpenCV's keeps what it works on.
+class PoseNetwork::Network {
+ public:
+  /// The result is this object's until the next call.
+  Landmarks run(const cv::Mat3b& input) {
+    constexpr double kWhite = 255.0;
+    constexpr bool kSwapBlueAndRed = true;
+    net_.setInput(cv::dnn::blobFromImage(input, 1.0 / kWhite, {}, {}, kSwapBlueAndRed));
+    net_.forward(outputs_, {"landmarks", "world_landmarks", "score"});
+    return {outputs_[0].reshape(1, kLandmarks), outputs_[1].reshape(1, kLandmarks),
+            outputs_[2].at<float>(0)};
+  }
+
+ private:
+  cv::dnn::Net net_ = read_network();
+  std::vector<cv::Mat> outputs_;
+};
+
+PoseNetwork::PoseNetwork(const PoseNetworkParams& params) : params_(params) {
+  if (params.enabled)
+    networks_ = std::make_unique<InstancePool<Network>>([] { return std::make_unique<Network>(); });
+}
+
+PoseNetwork::~PoseNetwork() = default;
+
+std::optional<ImagePose> PoseNetwork::look(const Cloud& cloud, const LabelledPerson& person,
+                                           const Eigen::Vector3f& down) const {
+  if (!networks_ || !cloud.organized() || cloud.colors.empty()) return std::nullopt;
+  const std::optional<UprightSquare> square = square_around(*cloud.camera, person.head_m, down);
+  if (!square) return std::nullopt;
+  const cv::Rect part = part_around(*square, {cloud.width, cloud.height});
+  if (part.empty()) return std::nullopt;
+  UprightSquare square_in_part = *square;
+  square_in_part.center_px -= Eigen::Vector2f(part.x, part.y);
+  const cv::Mat3b input = cut_out(paint_others_over(cloud, person, part), square_in_part, kInput_px,
+                                  cv::BORDER_CONSTANT);
+  return networks_->with([&](Network& network) {
+    return to_pose(network.run(input), image_from_patch(*square, kInput_px));
+  });
+}
+
+std::optional<UprightSquare> PoseNetwork::square_around(const PinholeCamera& camera,
+                                                        const Eigen::Vector3f& head_m,
+                                                        const Eigen::Vector3f& down) const {
+  const Eigen::Vector3f middle_m = head_m + params_.middle_below_head_m * down;
+  if (!(head_m.z() > 0.0F) || !(middle_m.z() > 0.0F)) return std::nullopt;
+  const float side_px = static_cast<float>(camera.fx) / middle_m.z() * params_.side_m;
+  if (side_px < params_.min_side_px || side_px > kLongestSide_px) return std::nullopt;
+  const Eigen::Vector2f center_px = camera.project(middle_m);
+  const Eigen::Vector2f down_px = center_px - camera.project(head_m);
+  // From straight above nothing in the image is down.
+  if (!(down_px.norm() > 1.0F)) return std::nullopt;
+  return UprightSquare{center_px, down_px.normalized(), side_px};
+}
+
+}  // namespace limbcast::segmenter

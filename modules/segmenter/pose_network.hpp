@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/cloud/cloud.hpp"
+#include "common/cloud/segment.hpp"
+#include "modules/segmenter/color_patch.hpp"
+#include "modules/segmenter/instance_pool.hpp"
+#include "modules/segmenter/params.hpp"
+
+namespace limbcast::segmenter {
+
+/// A person of a cloud that was segmented.
+struct LabelledPerson {
+  const std::vector<std::int16_t>& labels;  ///< whose each of the cloud's points is
+  std::int16_t label;                       ///< this person's
+  Eigen::Vector3f head_m;                   ///< centre of the head, in the cloud's frame
+};
+
+/// Sees a person's joints in the colour image with BlazePose (V. Bazarevsky et al., "BlazePose:
+/// On-device Real-time Body Pose tracking", CVPR workshop 2020; models/README.md). Several threads
+/// may use one object.
+class PoseNetwork {
+ public:
+  explicit PoseNetwork(const PoseNetworkParams& params);
+  ~PoseNetwork();
+
+  /// `down` is gravity's direction in the cloud's frame. Other people are painted over, since the
+  /// network tells of one. Nothing without colour and camera, and of a person too small to see.
+  std::optional<ImagePose> look(const Cloud& cloud, const LabelledPerson& person,
+                                const Eigen::Vector3f& down) const;
+
+ private:
+  class Network;
+
+  std::optional<UprightSquare> square_around(const PinholeCamera& camera,
+                                             const Eigen::Vector3f& head_m,
+                                             const Eigen::Vector3f& down) const;
+
+  PoseNetworkParams params_;
+  std::unique_ptr<InstancePool<Network>> networks_;
+};
+
+}  // namespace limbcast::segmenter
