@@ -70,10 +70,10 @@ TEST(Settings, KeepMessagesOnTheHostUnlessTheExampleRobotSharesThem) {
   }
 }
 
-class ChainSettings : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+class ChainSettings : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 
 TEST_P(ChainSettings, IsUnderstoodByTheProgramThatReadsIt) {
-  const auto [name, file] = GetParam();
+  const auto& [name, file] = GetParam();
   // An unusable URL ends the program once it has read its settings.
   const auto result =
       test::run({test::program(name), "--config", launch_file(file), "--lcm-url", "nonsense://"});
@@ -86,12 +86,13 @@ TEST(SettingsFile, OfTheCameraIsUnderstoodUpToTheCalibrationThatItNames) {
   EXPECT_THAT(result.output, HasSubstr("/etc/limbcast/front.yml"));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Robot, ChainSettings,
-    ::testing::Values(std::pair{"limbcast-reconstructor", "robot/vision/robot.conf"},
-                      std::pair{"limbcast-segmenter", "robot/vision/robot.conf"},
-                      std::pair{"limbcast-pose-fitter", "robot/vision/robot.conf"},
-                      std::pair{"limbcast-segmenter", "settings/robot.conf"}));
+INSTANTIATE_TEST_SUITE_P(Robot, ChainSettings,
+                         ::testing::ValuesIn(std::vector<std::pair<std::string, std::string>>{
+                             {"limbcast-reconstructor", "robot/vision/robot.conf"},
+                             {"limbcast-segmenter", "robot/vision/robot.conf"},
+                             {"limbcast-pose-fitter", "robot/vision/robot.conf"},
+                             {"limbcast-tracker", "robot/vision/robot.conf"},
+                             {"limbcast-segmenter", "settings/robot.conf"}}));
 
 }  // namespace
 }  // namespace limbcast::launch

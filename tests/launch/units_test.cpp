@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "tests/support/child_process.hpp"
 
@@ -10,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::run;
+using ::testing::HasSubstr;
 
 /// The largest exposure that `systemd-analyze security` may find, of 100.
 constexpr const char* kLargestExposure = "25";
@@ -46,6 +49,10 @@ class Units : public ::testing::Test {
         names.push_back(entry.path().filename());
     return names;
   }
+  static std::string text_of(const std::string& unit) {
+    std::ifstream in(unit_folder() / unit);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
   static std::string root_option() { return "--root=" + root_.string(); }
 
   static fs::path root_;
@@ -79,6 +86,26 @@ TEST_F(Units, AreEnabledForASensorAndStartedWithTheTarget) {
                            "limbcast.target.wants/limbcast-stereo-camera@front.service",
                            "limbcast.target.wants/limbcast-segmenter.service"})
     EXPECT_TRUE(fs::is_symlink(wants / link)) << link;
+}
+
+TEST_F(Units, AreStartedAgainWithinLimitsAndStopWithTheTarget) {
+  for (const std::string& unit : units()) {
+    if (fs::path(unit).extension() != ".service" || unit == "limbcast-route@.service") continue;
+    for (const char* setting :
+         {"\nPartOf=limbcast.target\n", "\nEnvironmentFile=/etc/limbcast/lcm.conf\n",
+          "\nRestart=on-failure\n", "\nStartLimitIntervalSec=60\nStartLimitBurst=10\n",
+          "\nMemoryMax=1G\n"})
+      EXPECT_THAT(text_of(unit), HasSubstr(setting)) << unit;
+  }
+}
+
+TEST_F(Units, ReadTheSettingsOfTheRobotOrOfTheirSensor) {
+  EXPECT_THAT(text_of("limbcast-segmenter.service"),
+              HasSubstr("\nExecStart=limbcast-segmenter --config /etc/limbcast/robot.conf\n"));
+  EXPECT_THAT(text_of("limbcast-segmenter@.service"),
+              HasSubstr("\nExecStart=limbcast-segmenter --config /etc/limbcast/%i.conf\n"));
+  // A restart does not mend wrong settings.
+  EXPECT_THAT(text_of("limbcast-segmenter.service"), HasSubstr("\nRestartPreventExitStatus=2\n"));
 }
 
 }  // namespace

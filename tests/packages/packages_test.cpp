@@ -12,6 +12,8 @@ namespace fs = std::filesystem;
 using test::run;
 using ::testing::HasSubstr;
 
+const std::string kNoPackage = "no such package";
+
 /// The .deb files that cpack makes of this build.
 class Packages : public ::testing::Test {
  protected:
@@ -28,7 +30,7 @@ class Packages : public ::testing::Test {
       if (entry.path().filename().string().rfind(name + "_", 0) == 0)
         return run({"dpkg-deb", what, entry.path().string()}).output;
     }
-    return "no such package";
+    return kNoPackage;
   }
 
   static fs::path folder_;
@@ -44,6 +46,10 @@ TEST_F(Packages, HoldProgramsWithUnitsSettingsManualsAndCompletion) {
         "./usr/lib/sysctl.d/60-limbcast.conf\n", "./etc/limbcast/lcm.conf\n",
         "./usr/share/bash-completion/completions/limbcast-segmenter\n"})
     EXPECT_THAT(contents, HasSubstr(file));
+  // help2man makes the manuals; without it they are left out.
+  if (fs::exists(std::string(LIMBCAST_BUILD_DIR) + "/share/man/man1/limbcast-segmenter.1")) {
+    EXPECT_THAT(contents, HasSubstr("./usr/share/man/man1/limbcast-segmenter.1\n"));
+  }
   EXPECT_THAT(contents, Not(HasSubstr("/usr/include")));
 }
 
@@ -55,8 +61,8 @@ TEST_F(Packages, HoldTypesForCppAndJava) {
         "./usr/share/limbcast/lcmtypes/body_poses_t.lcm\n",
         "./usr/share/doc/limbcast-dev/examples/subscriber.cpp\n"})
     EXPECT_THAT(contents, HasSubstr(file));
+  const std::string java = tell("--contents", "limbcast-java");
   if (fs::exists(std::string(LIMBCAST_BUILD_DIR) + "/share/java/limbcast_types.jar")) {
-    const std::string java = tell("--contents", "limbcast-java");
     EXPECT_THAT(java, HasSubstr("./usr/share/java/limbcast_types.jar\n"));
     EXPECT_THAT(java, HasSubstr("./usr/share/java/limbcast_spy.jar\n"));
   }
@@ -79,6 +85,10 @@ TEST_F(Packages, NameWhatTheyNeed) {
   EXPECT_THAT(tools, HasSubstr("opencv-data"));
   EXPECT_THAT(tools, HasSubstr("conffiles"));
   EXPECT_THAT(tell("--info", "limbcast-dev"), HasSubstr("Depends: liblcm-dev"));
+  const std::string java = tell("--info", "limbcast-java");
+  if (java != kNoPackage) {
+    EXPECT_THAT(java, HasSubstr("Depends: liblcm-java, libjchart2d-java, default-jre"));
+  }
 }
 
 }  // namespace
