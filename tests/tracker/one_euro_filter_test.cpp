@@ -54,6 +54,33 @@ TEST(OneEuroFilter, IsTheMeanOfItsFirstSamplesAtRest) {
   EXPECT_NEAR(filter.value().x(), 0.003F, 1e-6F);
 }
 
+/// A filter at rest at zero.
+OneEuroFilter resting_filter() {
+  OneEuroFilter filter({});
+  filter.restart(Vector3f::Zero());
+  for (int i = 0; i < 10; ++i) filter.update(Vector3f::Zero(), kFrame_s);
+  return filter;
+}
+
+TEST(OneEuroFilter, IsNotMovedByOneSampleThatIsWrongAtRest) {
+  OneEuroFilter filter = resting_filter();
+  filter.update({0.02F, 0.0F, -0.02F}, kFrame_s);
+  EXPECT_EQ(filter.value(), Vector3f::Zero());
+  filter.update(Vector3f::Zero(), kFrame_s);
+  EXPECT_EQ(filter.value(), Vector3f::Zero());
+}
+
+TEST(OneEuroFilter, FollowsAMotionOutOfRestFromItsSecondSampleOn) {
+  OneEuroFilter filter = resting_filter();
+  constexpr float kStep_m = 0.1F;  // 1 m/s
+  filter.update({kStep_m, 0.0F, 0.0F}, kFrame_s);
+  EXPECT_GE(filter.value().x(), 0.0F);
+  for (int i = 2; i < 6; ++i) {
+    filter.update({kStep_m * static_cast<float>(i), 0.0F, 0.0F}, kFrame_s);
+    EXPECT_NEAR(filter.value().x(), kStep_m * static_cast<float>(i), 0.2F * kStep_m) << i;
+  }
+}
+
 TEST(OneEuroFilter, PredictsAlongItsSpeedAndComesToRest) {
   OneEuroFilter filter({});
   filter.restart(Vector3f::Zero());
