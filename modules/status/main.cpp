@@ -98,7 +98,7 @@ void show_once(lcm_io::Bus& bus, StatusBoard& board, const Options& options,
                              "; are they running, and with the same URL? see limbcast-doctor");
   const auto errors =
       std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.is_in_error(); });
-  if (errors > 0) throw std::runtime_error(std::to_string(errors) + " modules are in error");
+  if (errors > 0) throw std::runtime_error("modules in error: " + std::to_string(errors));
 }
 
 void run(int argc, const char* const* argv) {
