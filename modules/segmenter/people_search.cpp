@@ -180,39 +180,46 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
                                         std::vector<HeadCandidate> candidates,
                                         const HeadClassifier& classifier,
                                         const ClassifierParams& params,
-                                        std::vector<RejectedHead>& rejected) {
+                                        std::vector<RejectedHead>& rejected,
+                                        const HeadOpinion& opinion) {
   const float prior_odds = lattice.wraps_around ? params.panorama_odds : 0.0F;
   for (HeadCandidate& candidate : candidates)
     candidate.odds = classifier.head_odds(lattice, candidate) + prior_odds;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const HeadCandidate& a, const HeadCandidate& b) { return a.odds > b.odds; });
+  int asked = 0;
   std::vector<HeadCandidate> likely;
-  for (const HeadCandidate& candidate : candidates) {
+  for (HeadCandidate& candidate : candidates) {
+    const bool taken = std::any_of(likely.begin(), likely.end(), [&](const HeadCandidate& better) {
+      return (better.center_m - candidate.center_m).norm() < params.separation_m;
+    });
+    const bool unsure = candidate.odds > params.min_asked_odds &&
+                        candidate.odds < params.sure_head_odds && candidate.kind != SeedKind::kSkin;
+    if (opinion && unsure && !taken && asked < params.max_asked) {
+      ++asked;
+      candidate.odds = opinion(candidate).value_or(candidate.odds);
+    }
     const float min_odds =
         candidate.kind == SeedKind::kSkin ? params.min_skin_head_odds : params.min_head_odds;
     if (candidate.odds < min_odds) {
       rejected.push_back(
           {candidate,
            {SegmentFilter::kNotHeadShaped, probability(candidate.odds), probability(min_odds)}});
-      continue;
-    }
-    const bool taken = std::any_of(likely.begin(), likely.end(), [&](const HeadCandidate& better) {
-      return (better.center_m - candidate.center_m).norm() < params.separation_m;
-    });
-    if (taken)
+    } else if (taken) {
       rejected.push_back({candidate, {SegmentFilter::kSamePerson, 1.0F, kSamePersonShare}});
-    else
+    } else {
       likely.push_back(candidate);
+    }
   }
   return likely;
 }
 
 FoundPeople find_people(const Lattice& lattice, std::vector<HeadCandidate> candidates,
                         const HeadClassifier& classifier, const BodyClassifier& bodies,
-                        const Params& params) {
+                        const Params& params, const HeadOpinion& opinion) {
   FoundPeople found;
-  std::vector<HeadCandidate> likely =
-      likely_heads(lattice, std::move(candidates), classifier, params.classifier, found.rejected);
+  std::vector<HeadCandidate> likely = likely_heads(lattice, std::move(candidates), classifier,
+                                                   params.classifier, found.rejected, opinion);
   Trial trial(lattice, std::move(likely), classifier, params);
   while (const auto rejected = trial.drop_rival()) found.rejected.push_back(*rejected);
   while (const auto rejected = trial.drop_weakest()) found.rejected.push_back(*rejected);

@@ -60,6 +60,15 @@ Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
   return seed_m + kHeadDepth_m * seed_m.normalized();
 }
 
+Eigen::Vector3f down_of(const LevelFrame& frame) {
+  return -frame.level_from_sensor.row(2).transpose();
+}
+
+float log_odds(float probability) {
+  constexpr float kLeast = 1e-6F;
+  return std::log(std::max(kLeast, probability) / std::max(kLeast, 1.0F - probability));
+}
+
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
@@ -148,7 +157,9 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
                                                   const std::vector<HeadCandidate>& seeds,
                                                   Segments& result) const {
   const LevelFrame& frame = scene.lattice.frame;
-  FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_);
+  FoundPeople people =
+      find_people(scene.lattice, seeds, classifier_, bodies_, params_,
+                  [&](const HeadCandidate& head) { return image_head_odds(scene, head); });
   if (scene.cloud.organized())
     add_headless_people(scene.lattice, surfaces_, params_.hidden_heads, people);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
@@ -158,6 +169,25 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
     reject(rejected.rejection, result.segments.back());
   }
   return labels_of_cloud(scene, people.labels);
+}
+
+std::optional<float> Segmenter::image_head_odds(const Scene& scene,
+                                                const HeadCandidate& head) const {
+  const LevelFrame& frame = scene.lattice.frame;
+  const Eigen::Vector3f head_m = frame.to_sensor(head.center_m);
+  const std::vector<std::int16_t> nobodys(scene.cloud.points_m.size(), kNobody);
+  const auto pose = pose_network_.look(scene.cloud, {nobodys, kNobody, head_m}, down_of(frame));
+  if (!pose) return std::nullopt;
+  const auto seen = std::find_if(pose->joints.begin(), pose->joints.end(),
+                                 [](const ImageJoint& j) { return j.joint == Joint::kHead; });
+  const PinholeCamera& camera = *scene.cloud.camera;
+  const float distance_m =
+      (seen->px - camera.project(head_m)).norm() * head_m.z() / static_cast<float>(camera.fx);
+  const PoseNetworkParams& params = params_.pose_network;
+  return params.base_odds + params.depth_odds * head.odds +
+         params.score_odds * std::clamp(log_odds(pose->person_score), -params.max_score_odds,
+                                        params.max_score_odds) +
+         params.distance_odds_per_m * std::min(distance_m, params.max_distance_m);
 }
 
 std::vector<std::int16_t> Segmenter::labels_of_cloud(
@@ -195,7 +225,7 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
                               Segments& result) const {
   const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
                                 params_.range_image_margin_m};
-  const Eigen::Vector3f down = -scene.lattice.frame.level_from_sensor.row(2).transpose();
+  const Eigen::Vector3f down = down_of(scene.lattice.frame);
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);

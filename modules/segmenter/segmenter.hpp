@@ -51,6 +51,8 @@ class Segmenter {
   std::vector<std::int16_t> grow_as_paper(const Scene& scene,
                                           const std::vector<HeadCandidate>& seeds,
                                           Segments& result) const;
+  /// Log odds of a head, by the depths around it and by what the colour image shows beneath it.
+  std::optional<float> image_head_odds(const Scene& scene, const HeadCandidate& head) const;
   std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
                                             const std::vector<std::int16_t>& labels) const;
   void fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,

@@ -24,7 +24,7 @@ class Confidence : public ::testing::Test {
     evidence_.arms.fill({/*support=*/15.0, /*gap=*/8.0, /*bend_rad=*/0.1, /*sigma_rad=*/0.03,
                          /*forwards=*/0.7, /*outwards=*/0.7});
   }
-  Real of_direction() const { return direction_confidence(body_, evidence_.arms[0], evidence_); }
+  Real of_direction() const { return direction_confidence(body_, 0, evidence_); }
 
   BodyState body_;
   Evidence evidence_;

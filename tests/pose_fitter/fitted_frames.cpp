@@ -24,6 +24,14 @@ BodyPose all_joints(const refined::FittedBody& fitted) {
   return pose;
 }
 
+segmenter::Params without_image(segmenter::Params params) {
+  params.pose_network.enabled = false;
+  return params;
+}
+
+/// Of four frames one is seen without colour's help, as a camera without colour would see it.
+bool is_without_image(std::size_t frame) { return frame % 4 == 3; }
+
 FittedFrame fit_frame(const LoadedFrame& frame, std::vector<BodyPose> truth,
                       const segmenter::Segmenter& segmenter) {
   const Segments segments = segmenter.segment(frame.cloud);
@@ -44,15 +52,17 @@ FittedFrame fit_frame(const LoadedFrame& frame, std::vector<BodyPose> truth,
 
 }  // namespace
 
-void fit_frames(const std::string& folder, const segmenter::Segmenter& segmenter,
+void fit_frames(const std::string& folder, const segmenter::Params& params,
                 const std::function<void(FittedFrame&&, std::size_t)>& take) {
   const segmenter::FrameReader reader(folder, segmenter::DepthFrom::kReconstructor);
+  const segmenter::Segmenter segmenter(params), colorless(without_image(params));
   std::vector<std::optional<FittedFrame>> frames(reader.paths().size());
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
     const std::string& path = reader.paths()[i];
     const LoadedFrame frame = reader.read(path);
     if (!frame.labelled || frame.for_checking()) return;
-    frames[i] = fit_frame(frame, read_ground_truth(path + "_gt.json").persons, segmenter);
+    frames[i] = fit_frame(frame, read_ground_truth(path + "_gt.json").persons,
+                          is_without_image(i) ? colorless : segmenter);
   });
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i]) take(std::move(*frames[i]), i);

@@ -21,8 +21,9 @@ struct FittedFrame {
 };
 
 /// Runs the chain on each labelled frame of a folder that shows neither body D4 nor D5 (they are
-/// for checking) and calls `take(frame, number)` for each, in the frames' order.
-void fit_frames(const std::string& folder, const segmenter::Segmenter& segmenter,
+/// for checking) and calls `take(frame, number)` for each, in the frames' order. Every fourth is
+/// seen without the image's network, as by a sensor without colour.
+void fit_frames(const std::string& folder, const segmenter::Params& params,
                 const std::function<void(FittedFrame&&, std::size_t)>& take);
 
 /// Eight neighbouring frames go to one block; of four blocks the last tells how good a fit is.

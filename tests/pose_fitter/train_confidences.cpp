@@ -81,13 +81,15 @@ void add_directions(const FittedBody& fitted, const BodyPose& pose, const BodyPo
   for (const Pointing& pointing : find_pointing(pose, stamp.gravity.down, refined::kPointingRule)) {
     const auto axis = visible_arm_axis(truth, pointing.side);
     if (!axis) continue;
-    const refined::ArmEvidence& arm = fitted.evidence.arms[pointing.side == Side::kLeft ? 0 : 1];
+    const int side = static_cast<int>(pointing.side);
     const double error_rad = std::atan2(pointing.direction.cross(*axis).norm(),  //
                                         pointing.direction.dot(*axis));
     const bool right = error_rad <= radians(kRules.right_direction_deg);
     outcomes.directions.push_back(
-        {refined::direction_features(fitted.body, arm, fitted.evidence), right});
-    if (right) outcomes.direction_errors_in_spreads.push_back(error_rad / arm.sigma_rad);
+        {refined::direction_features(fitted.body, side, fitted.evidence), right});
+    if (right)
+      outcomes.direction_errors_in_spreads.push_back(error_rad /
+                                                     fitted.evidence.arms[side].sigma_rad);
   }
 }
 
@@ -140,10 +142,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: limbcast-train-confidences OUT.inc FOLDER...\n");
     return 2;
   }
-  const segmenter::Segmenter segmenter;
   Outcomes fitted_to, checked_on;
   for (int k = 2; k < argc; ++k) {
-    fit_frames(argv[k], segmenter, [&](const FittedFrame& frame, std::size_t i) {
+    fit_frames(argv[k], segmenter::Params{}, [&](const FittedFrame& frame, std::size_t i) {
       append(ask(frame), is_checked_on(i) ? checked_on : fitted_to);
     });
     std::printf("%s: %zu directions so far\n", argv[k],

@@ -104,12 +104,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: limbcast-train-persons OUT.inc FOLDER...\n");
     return 2;
   }
-  const segmenter::Segmenter segmenter(eager_params());
   std::vector<Case> all, trained_on, checked_on;
   for (int k = 2; k < argc; ++k) {
     // Of the recorded rooms without people every second one is for checking.
     const bool halved = std::string(argv[k]).find("stereo_dev/nohuman") != std::string::npos;
-    fit_frames(argv[k], segmenter, [&](const FittedFrame& frame, std::size_t number) {
+    fit_frames(argv[k], eager_params(), [&](const FittedFrame& frame, std::size_t number) {
       if (halved && number % 2 == 1) return;
       for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
         const bool person = frame.matching.kinds[i] == evaluate::ReportKind::kMatched;

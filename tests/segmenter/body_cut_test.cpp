@@ -5,6 +5,7 @@
 #include <set>
 
 #include "modules/segmenter/people_search.hpp"
+#include "tests/segmenter/constant_classifier.hpp"
 #include "tests/segmenter/drawn_scene.hpp"
 
 namespace limbcast::segmenter {
@@ -85,21 +86,10 @@ TEST(BodyCut, NamesWhatHangsOnCutPointsAlone) {
   EXPECT_EQ(left.unsure.count(index_at(lattice, -0.6F, 0.0F)), 1U);
 }
 
-/// A network that tells the same of everything.
-Network always(float odds, int inputs) {
-  Network network;
-  network.hidden_weights = Network::Weights::Zero(1, inputs);
-  network.hidden_bias = Eigen::VectorXf::Zero(1);
-  network.output_weights = Eigen::VectorXf::Zero(1);
-  network.output_bias = odds;
-  return network;
-}
-
 TEST(FindPeople, LeavesOutAHeadWhoseClusterIsNearlyAllOtherThings) {
   const Lattice lattice = body_with_seat(0.6F);
   const HeadCandidate head = head_at(lattice, 0.0F, 0.8F);
-  constexpr int kPersonInputs = 19;
-  const HeadClassifier sure(always(5.0F, kPatchSize), always(5.0F, kPersonInputs));
+  const HeadClassifier sure = constant_classifier(5.0F);
   const BodyClassifier a_body = parted_at(0.2F);
   const BodyClassifier a_wall = parted_at(-0.15F);
   EXPECT_EQ(find_people(lattice, {head}, sure, a_body, {}).heads.size(), 1U);

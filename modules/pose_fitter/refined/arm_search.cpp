@@ -7,6 +7,8 @@
 #include <opencv2/core/fast_math.hpp>
 #include <utility>
 
+#include "modules/pose_fitter/refined/image_term.hpp"
+
 namespace limbcast::pose_fitter::refined {
 namespace {
 
@@ -66,7 +68,7 @@ std::vector<ArmPosture> best_different(const std::vector<ArmPosture>& found, int
 }  // namespace
 
 struct ArmSearch::Frame {
-  Frame(const BodyState& body, int side)
+  Frame(const BodyState& body, int side, int seen_side)
       : body_rotation(body.rotation),
         shoulder(body.points[kShoulder + side]),
         neck(body.points[kNeck]),
@@ -74,7 +76,8 @@ struct ArmSearch::Frame {
         up(body.rotation.col(1)),
         front(body.front()),
         stature(body.stature_m()),
-        sign(side_sign(side)) {}
+        sign(side_sign(side)),
+        image_side(seen_side) {}
 
   /// Upper arms do not go far across the body or behind it.
   bool upper_arm_possible(const Vec3& direction) const {
@@ -91,10 +94,11 @@ struct ArmSearch::Frame {
   Mat3 body_rotation;
   Vec3 shoulder, neck, outwards, up, front;
   Real stature, sign;
+  int image_side;  ///< of the arm, as the image takes the sides
 };
 
 ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params)
-    : observation_(observation), directions_(sphere(params.arm_directions)) {
+    : observation_(observation), params_(params), directions_(sphere(params.arm_directions)) {
   const PinholeCamera& camera = observation.camera;
   grid_width_ = (camera.width + kCellPx - 1) / kCellPx;
   grid_height_ = (camera.height + kCellPx - 1) / kCellPx;
@@ -147,6 +151,11 @@ Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
   return cost;
 }
 
+Real ArmSearch::image_cost_of(const Frame& arm, const Vec3& elbow, const Vec3& wrist) const {
+  return image_cost(observation_.seen_joints[kElbow + arm.image_side], elbow, params_) +
+         image_cost(observation_.seen_joints[kWrist + arm.image_side], wrist, params_);
+}
+
 void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) const {
   const Real upper = kUpperArm * arm.stature, fore = kForearm * arm.stature;
   for (const Vec3& upper_direction : directions_) {
@@ -167,7 +176,7 @@ void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) 
       if (cost > kArmLimit) continue;
       cost +=
           sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
-          Frame::elbow_cost(ahead);
+          Frame::elbow_cost(ahead) + image_cost_of(arm, elbow, wrist);
       found.push_back({cost, elbow, wrist});
     }
   }
@@ -209,8 +218,19 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
         sample_cost(wrist, kWristRadius * arm.stature) +
         sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
         Frame::elbow_cost(ahead);
-    if (cost < kArmLimit) found.push_back({cost, elbow, wrist});
+    if (cost < kArmLimit) found.push_back({cost + image_cost_of(arm, elbow, wrist), elbow, wrist});
   }
+}
+
+void ArmSearch::reach_seen_wrist(const Frame& arm, std::vector<ArmPosture>& found) const {
+  const SeenJoint& seen = observation_.seen_joints[kWrist + arm.image_side];
+  if (seen.visibility <= 0.0) return;
+  const PinholeCamera& camera = observation_.camera;
+  const int u = cvRound(camera.fx * seen.ray.x() / seen.ray.z() + camera.cx);
+  const int v = cvRound(camera.fy * seen.ray.y() / seen.ray.z() + camera.cy);
+  if (!observation_.inside(u, v)) return;
+  const float z = observation_.smooth_surface_m(u, v);
+  if (z > 0.0F) reach(arm, seen.ray * (z / seen.ray.z()), found);
 }
 
 void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const {
@@ -224,6 +244,7 @@ void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) co
   const std::size_t step = std::max<std::size_t>(1, unexplained.size() / kReachTargets);
   for (std::size_t i = 0; i < unexplained.size(); i += step)
     reach(arm, point(unexplained[i]), found);
+  reach_seen_wrist(arm, found);
   const std::size_t all_step = std::max<std::size_t>(1, grid_points_.size() / kReachTargets);
   for (std::size_t i = all_step / 2; i < grid_points_.size(); i += all_step)
     reach(arm, point(i), found);
@@ -232,7 +253,8 @@ void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) co
 std::vector<ArmPosture> ArmSearch::postures(const BodyState& body, int side, unsigned explained,
                                             int count) {
   mark_unexplained(body, explained);
-  const Frame arm(body, side);
+  const bool swapped = image_takes_sides_otherwise(body, observation_, bit(Part::kTrunk), params_);
+  const Frame arm(body, side, swapped ? 1 - side : side);
   std::vector<ArmPosture> found;
   by_directions(arm, found);
   by_reaching(arm, found);

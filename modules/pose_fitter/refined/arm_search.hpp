@@ -28,9 +28,12 @@ class ArmSearch {
   Real sample_cost(const Vec3& center, Real radius) const;
   void by_directions(const Frame& arm, std::vector<ArmPosture>& found) const;
   void by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const;
+  void reach_seen_wrist(const Frame& arm, std::vector<ArmPosture>& found) const;
+  Real image_cost_of(const Frame& arm, const Vec3& elbow, const Vec3& wrist) const;
   void reach(const Frame& arm, const Vec3& wrist_surface, std::vector<ArmPosture>& found) const;
 
   const Observation& observation_;
+  const RefinedParams& params_;
   std::vector<Vec3> directions_;
   int grid_width_ = 0, grid_height_ = 0;
   PointColumns grid_points_;        ///< own points on every third pixel

@@ -23,6 +23,24 @@ Real odd_posture(const Evidence& evidence) {
 }
 Real surface_misfit(const Evidence& evidence) { return evidence.surface_cost / evidence.weight; }
 
+/// How far off the image's joints the ones from `first` to before `end` stand in the mean, 0 to 1,
+/// those in sight counting more.
+Real image_disagreement(const ImageEvidence& image, int first, int end, int step = 1) {
+  Real sum = 0.0, weight = 1e-3;
+  for (int i = first; i < end; i += step) {
+    sum += image.visibility[i] * image.disagreement[i];
+    weight += image.visibility[i];
+  }
+  return sum / weight;
+}
+/// How many of the joints from `first` to before `end` the image shows, in the mean.
+Real image_visibility(const ImageEvidence& image, int first, int end, int step = 1) {
+  Real sum = 0.0;
+  int count = 0;
+  for (int i = first; i < end; i += step, ++count) sum += image.visibility[i];
+  return sum / count;
+}
+
 /// Mean over the points from `first` to before `end`.
 Real mean_log_sigma(const Evidence& evidence, int first, int end) {
   Real sum = 0.0;
@@ -48,19 +66,25 @@ JointFeatures joint_features(const Evidence& evidence, int joint) {
   features << 1.0, std::log(std::max(kLeastSigmaM, evidence.sigma_m[joint])),
       evidence.in_sight[joint] ? 1.0 : 0.0, odd_posture(evidence), surface_misfit(evidence),
       lower_arm ? 1.0 : 0.0, lower_arm ? strength(evidence.arms[(joint - kElbow) % 2].gap) : 0.0,
-      on_axis(joint) ? 1.0 : 0.0, on_axis(joint) ? 0.0 : strength(evidence.flip_gap);
+      on_axis(joint) ? 1.0 : 0.0, on_axis(joint) ? 0.0 : strength(evidence.flip_gap),
+      evidence.image.told ? 1.0 : 0.0, evidence.image.visibility[joint],
+      evidence.image.visibility[joint] * evidence.image.disagreement[joint],
+      evidence.image.sides_swapped && !on_axis(joint) ? 1.0 : 0.0;
   return features;
 }
 
-DirectionFeatures direction_features(const BodyState& body, const ArmEvidence& arm,
-                                     const Evidence& evidence) {
+DirectionFeatures direction_features(const BodyState& body, int side, const Evidence& evidence) {
+  const ArmEvidence& arm = evidence.arms[side];
+  const ImageEvidence& image = evidence.image;
   // The cost is per area of skin, of which a child has less.
   const Real size = kReferenceStatureM / body.stature_m();
   DirectionFeatures features;
   features << 1.0, std::clamp(arm.gap * size * size, 0.0, kMostGap), strength(arm.support),
       std::log(std::max(kLeastSigmaDeg, arm.sigma_rad * kDegreesPerRadian<Real>)), arm.bend_rad,
       odd_posture(evidence), std::min(1.0, surface_misfit(evidence)), arm.forwards,
-      std::max(0.0, -arm.outwards);
+      std::max(0.0, -arm.outwards), image.told ? 1.0 : 0.0,
+      image_visibility(image, kShoulder + side, kHip, 2),
+      image_disagreement(image, kShoulder + side, kHip, 2), image.sides_swapped ? 1.0 : 0.0;
   return features;
 }
 
@@ -77,6 +101,10 @@ PersonFeatures person_features(const FittedBody& fitted) {
       person.bottom_m, person.ankle_height_m, person.noise_m, person.head_moved_m,
       person.outside_share, person.trunk_upright, person.neck_upright, person.thighs_upright,
       person.shins_upright, person.face_log_odds, person.guessed_head ? 1.0 : 0.0;
+  const ImageEvidence& image = evidence.image;
+  list, image.told ? 1.0 : 0.0, image.person_score, image.sides_swapped ? 1.0 : 0.0,
+      image_visibility(image, kShoulder, kJointCount), image_disagreement(image, kShoulder, kElbow),
+      image_disagreement(image, kElbow, kHip), image_disagreement(image, kHip, kJointCount);
   list, fitted.body.log_girth, odd_posture(evidence), surface_misfit(evidence),
       mean_log_sigma(evidence, kHead, kShoulder), mean_log_sigma(evidence, kShoulder, kJointCount),
       strength(evidence.shape_flip_gap),
@@ -88,8 +116,8 @@ Real joint_confidence(const Evidence& evidence, int joint) {
   return probability(joint_features(evidence, joint), kJointCoefficients);
 }
 
-Real direction_confidence(const BodyState& body, const ArmEvidence& arm, const Evidence& evidence) {
-  return probability(direction_features(body, arm, evidence), kDirectionCoefficients);
+Real direction_confidence(const BodyState& body, int side, const Evidence& evidence) {
+  return probability(direction_features(body, side, evidence), kDirectionCoefficients);
 }
 
 Real person_confidence(const FittedBody& fitted) {

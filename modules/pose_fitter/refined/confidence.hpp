@@ -9,23 +9,22 @@ namespace limbcast::pose_fitter::refined {
 
 template <int count>
 using Features = Eigen::Matrix<Real, count, 1>;
-using JointFeatures = Features<9>;
-using DirectionFeatures = Features<9>;
-using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 28, 1>;
+using JointFeatures = Features<13>;
+using DirectionFeatures = Features<13>;
+using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 35, 1>;
 
 /// What tells that a joint is within 10 cm.
 JointFeatures joint_features(const Evidence& evidence, int joint);
 /// What tells that an arm's axis is right: a straight arm in sight, in a body that fits well,
 /// without a rival, not behind the body or across it, where few people point but where arms end
 /// that are missed or belong to a body taken back to front.
-DirectionFeatures direction_features(const BodyState& body, const ArmEvidence& arm,
-                                     const Evidence& evidence);
+DirectionFeatures direction_features(const BodyState& body, int side, const Evidence& evidence);
 /// What tells a person from furniture, which fits a body too, but in an odd posture, as well from
 /// the back, without limbs of its own, with a doubtful head, and goes on beside the body.
 PersonFeatures person_features(const FittedBody& fitted);
 
 Real joint_confidence(const Evidence& evidence, int joint);
-Real direction_confidence(const BodyState& body, const ArmEvidence& arm, const Evidence& evidence);
+Real direction_confidence(const BodyState& body, int side, const Evidence& evidence);
 Real person_confidence(const FittedBody& fitted);
 
 /// Root mean square of error over posterior spread: larger than 1, as neighbouring points share

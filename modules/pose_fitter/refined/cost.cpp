@@ -1,5 +1,7 @@
 #include "modules/pose_fitter/refined/cost.hpp"
 
+#include "modules/pose_fitter/refined/image_term.hpp"
+
 namespace limbcast::pose_fitter::refined {
 
 CostTerms evaluate(const BodyState& body, const Observation& observation, const FitStage& stage,
@@ -18,6 +20,8 @@ CostTerms evaluate(const BodyState& body, const Observation& observation, const 
   if (derivatives) workspace.cones.add_to(body, equations);
   add_prior_terms(body, cones, observation, stage.parts, params, equations);
   terms.priors = equations.cost - terms.surface - terms.free_space;
+  add_image_term(body, observation, stage.parts, params, equations);
+  terms.image = equations.cost - terms.surface - terms.free_space - terms.priors;
   return terms;
 }
 

@@ -31,8 +31,8 @@ struct FitStage {
 
 /// What the terms of the cost add up to, for looking at.
 struct CostTerms {
-  Real surface = 0.0, free_space = 0.0, priors = 0.0;
-  Real total() const { return surface + free_space + priors; }
+  Real surface = 0.0, free_space = 0.0, priors = 0.0, image = 0.0;
+  Real total() const { return surface + free_space + priors + image; }
 };
 
 /// Buffers of one evaluation, kept to spare allocation.

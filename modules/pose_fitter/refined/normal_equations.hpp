@@ -45,7 +45,7 @@ class NormalEquations {
     if (derivatives_) add_row(residual, information * shrink * shrink);
   }
 
- private:
+  /// The row alone, without what the residual costs.
   void add_row(Real residual, Real information) {
     for (int a = 0; a < count_; ++a) {
       const Real weighted = values_[a] * information;
@@ -58,6 +58,7 @@ class NormalEquations {
     }
   }
 
+ private:
   bool derivatives_ = true;
   int count_ = 0;
   std::array<int, 48> unknowns_;

@@ -150,6 +150,20 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
   observation.skin_distance_px.assign(distance.begin<float>(), distance.end<float>());
 }
 
+void set_seen_joints(const Segment& segment, const RangeImage& image, Observation& observation) {
+  if (!segment.image_pose) return;
+  observation.has_image_pose = true;
+  observation.image_person_score = segment.image_pose->person_score;
+  const Eigen::Vector2f origin_px(static_cast<float>(image.origin_u),
+                                  static_cast<float>(image.origin_v));
+  for (const ImageJoint& joint : segment.image_pose->joints) {
+    const Eigen::Vector2f px = joint.px - origin_px;
+    observation.seen_joints[index(joint.joint)] = {
+        image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(),
+        joint.visibility};
+  }
+}
+
 PointColumns sampled(const Observation& observation, int step, double reach_m) {
   PointColumns points;
   const PinholeCamera& camera = observation.camera;
@@ -226,6 +240,7 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   if (!box) return std::nullopt;
   make_grids(image, *box, head_z, median_z, observation);
   find_skin(image, *box, observation);
+  set_seen_joints(segment, image, observation);
   const auto own_pixels = std::count_if(observation.surface_m.begin(), observation.surface_m.end(),
                                         [](float z) { return z > 0.0F; });
   const int step = std::max(1, static_cast<int>(std::lround(std::sqrt(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct PointColumns {
   void pad();  ///< must follow the last add
 };
 
+/// A joint as the image shows it, in the range image's frame.
+struct SeenJoint {
+  Vec3 ray = Vec3::UnitZ();  ///< unit vector from the camera towards it
+  Real visibility = 0.0;     ///< 0 to 1; 0: not told
+};
+
 /// What the sensor saw of one person, made ready for many looks, in the range image's frame.
 struct Observation {
   PointColumns fine, coarse;  ///< coarse: a quarter of the points
@@ -38,7 +45,10 @@ struct Observation {
   std::vector<float> skin_distance_px;
   DepthNoise noise;
 
-  FaceEvidence face;               ///< what its face tells
+  FaceEvidence face;              ///< what its face tells
+  bool has_image_pose = false;    ///< the next two are told
+  Real image_person_score = 0.0;  ///< how sure the image's network is of a person, 0 to 1
+  std::array<SeenJoint, kJointCount> seen_joints;
   Vec3 up;                         ///< against gravity
   Vec3 head_start;                 ///< first guess of the head's centre
   Real head_start_sigma_m = 0.05;  ///< standard deviation of its error

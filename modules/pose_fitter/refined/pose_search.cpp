@@ -62,6 +62,7 @@ bool faces_away(const BodyState& a, const BodyState& b) { return a.front().dot(b
 PoseSearch::PoseSearch(const Observation& observation, const RefinedParams& params)
     : observation_(observation),
       params_(params),
+      effort_(observation.has_image_pose ? params.effort_with_image : params.effort),
       solver_(observation, params),
       arms_(observation, params) {}
 
@@ -89,7 +90,7 @@ std::vector<PoseCandidate> PoseSearch::trunk_starts() {
       return alike(pose.body, other.body);
     });
     if (!known) kept.push_back(pose);
-    if (static_cast<int>(kept.size()) >= params_.starts_kept) break;
+    if (static_cast<int>(kept.size()) >= effort_.starts_kept) break;
   }
   // Front and back look alike: always carry one that faces the other way.
   const auto away = [&](const PoseCandidate& pose) {
@@ -136,7 +137,7 @@ PoseCandidate PoseSearch::with_arms(const BodyState& start) {
   const FitStage coarse{&observation_.coarse, kAllParts, params_.arm_search_surface_sigma_m};
   std::array<std::vector<BodyState>, 2> arms;
   for (int side = 0; side < 2; ++side) {
-    arms[side] = fitted_arms(start, side, kWithoutArms, params_.arm_postures_per_start,
+    arms[side] = fitted_arms(start, side, kWithoutArms, effort_.arm_postures_per_start,
                              params_.arms_combined);
     if (arms[side].empty()) arms[side].push_back(start);
   }
@@ -187,7 +188,7 @@ std::vector<PoseCandidate> PoseSearch::other_arms(const PoseCandidate& pose, int
   const Real present_cost = solver_.minimize(present, stage, kArmIterations);
   std::vector<PoseCandidate> others;
   for (const BodyState& start : fitted_arms(pose.body, side, kAllParts & ~arm_bit(side),
-                                            params_.arm_postures_per_move, params_.rival_arms)) {
+                                            effort_.arm_postures_per_move, params_.rival_arms)) {
     PoseCandidate other{0.0, start};
     other.cost = solver_.minimize(other.body, stage, kArmIterations) - present_cost;
     others.push_back(other);
@@ -216,7 +217,7 @@ bool PoseSearch::try_legs(PoseCandidate& pose) {
 bool PoseSearch::try_arm(PoseCandidate& pose, int side) {
   bool better = false;
   for (const BodyState& other : fitted_arms(pose.body, side, kAllParts & ~arm_bit(side),
-                                            params_.arm_postures_per_move, params_.arms_combined)) {
+                                            effort_.arm_postures_per_move, params_.arms_combined)) {
     if (!same_arm(other, pose.body, side)) better |= accept(other, kMoveIterations, pose);
   }
   return better;
@@ -228,7 +229,7 @@ void PoseSearch::move_limbs(PoseCandidate& pose) {
 }
 
 void PoseSearch::move(PoseCandidate& pose) {
-  for (int round = 0; round < params_.move_rounds; ++round) {
+  for (int round = 0; round < effort_.move_rounds; ++round) {
     const Real before = pose.cost;
     try_flip(pose);
     if (round == 0) try_flip_with_other_arms(pose);

@@ -46,6 +46,7 @@ class PoseSearch {
 
   const Observation& observation_;
   const RefinedParams& params_;
+  const SearchEffort& effort_;
   Solver solver_;
   std::vector<PoseCandidate> rejected_;  ///< bodies facing the other way that lost
   ArmSearch arms_;

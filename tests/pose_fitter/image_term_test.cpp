@@ -1,0 +1,115 @@
+#include "modules/pose_fitter/refined/image_term.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+
+#include "tests/pose_fitter/refined_body.hpp"
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+/// A body that faces the camera, and an image that shows each of its joints where it is.
+class ImageTerm : public ::testing::Test {
+ protected:
+  ImageTerm() {
+    observation_.has_image_pose = true;
+    observation_.image_person_score = 0.9;
+    for (int joint = 0; joint < kJointCount; ++joint)
+      observation_.seen_joints[joint] = {marked_place(body_, joint).normalized(), 1.0};
+  }
+
+  Real cost(const BodyState& body, unsigned parts = kAllParts) const {
+    equations_->clear(false);
+    add_image_term(body, observation_, parts, params_, *equations_);
+    return equations_->cost;
+  }
+  BodyState with_wrist_moved(const Vec3& by) const {
+    BodyState body = body_;
+    body.points[kWrist] += by;
+    return body;
+  }
+  void take_left_for_right() {
+    for (int joint = kShoulder; joint < kJointCount; joint += 2)
+      std::swap(observation_.seen_joints[joint], observation_.seen_joints[joint + 1]);
+  }
+
+  const BodyState body_ = testing::standing_body(2.5, 0.0);
+  const RefinedParams params_;
+  Observation observation_;
+  const std::unique_ptr<NormalEquations> equations_ = std::make_unique<NormalEquations>();
+};
+
+TEST_F(ImageTerm, CostsNothingOnTheRays) { EXPECT_NEAR(cost(body_), 0.0, 1e-9); }
+
+TEST_F(ImageTerm, CostsNothingAlongARay) {
+  const Vec3 ray = marked_place(body_, kWrist).normalized();
+  EXPECT_NEAR(cost(with_wrist_moved(0.3 * ray)), 0.0, 1e-9);
+}
+
+TEST_F(ImageTerm, CostsMoreTheFartherAJointStandsOffItsRay) {
+  const Real near = cost(with_wrist_moved({0.05, 0.0, 0.0}));
+  const Real far = cost(with_wrist_moved({0.10, 0.0, 0.0}));
+  EXPECT_GT(near, 0.0);
+  EXPECT_GT(far, near);
+}
+
+TEST_F(ImageTerm, CostsNoMoreThanItsLimitForAJointThatIsMarkedElsewhere) {
+  const Real limit =
+      0.5 * params_.image_weight * params_.image_limit_sigmas * params_.image_limit_sigmas;
+  const Real cost_m = cost(with_wrist_moved({1.0, 0.0, 0.0}));
+  EXPECT_LT(cost_m, limit);
+  EXPECT_GT(cost_m, 0.9 * limit);
+}
+
+TEST_F(ImageTerm, CountsAJointAsSurelyAsItIsSeen) {
+  const BodyState moved = with_wrist_moved({0.1, 0.0, 0.0});
+  const Real sure = cost(moved);
+  observation_.seen_joints[kWrist].visibility = 0.25;
+  EXPECT_NEAR(cost(moved), 0.25 * sure, 1e-9);
+}
+
+TEST_F(ImageTerm, LeavesOutThePartsThatAreNotFitted) {
+  EXPECT_NEAR(cost(with_wrist_moved({0.1, 0.0, 0.0}), kWithoutArms), 0.0, 1e-9);
+}
+
+TEST_F(ImageTerm, TellsTheSolverWhereToGo) {
+  const BodyState moved_off = with_wrist_moved({0.02, 0.01, 0.0});
+  equations_->clear(true);
+  add_image_term(moved_off, observation_, kAllParts, params_, *equations_);
+  // Along the gradient the cost falls as it tells.
+  constexpr Real kStep = 1e-5;
+  Step step = Step::Zero();
+  step.segment<3>(3 * kWrist) = -kStep * equations_->gradient.segment<3>(3 * kWrist).normalized();
+  const Real told = equations_->gradient.dot(step);
+  EXPECT_NEAR(cost(moved(moved_off, step)) - cost(moved_off), told, 1e-2 * std::abs(told));
+}
+
+TEST_F(ImageTerm, CostsAFixedSumWhereTheImageTakesLeftForRight) {
+  EXPECT_FALSE(image_takes_sides_otherwise(body_, observation_, kAllParts, params_));
+  take_left_for_right();
+  EXPECT_TRUE(image_takes_sides_otherwise(body_, observation_, kAllParts, params_));
+  EXPECT_NEAR(cost(body_), params_.image_swap_cost, 1e-9);
+}
+
+TEST_F(ImageTerm, TellsHowFarTheBodyAgrees) {
+  const ImageEvidence agrees = image_evidence(body_, observation_, params_);
+  EXPECT_TRUE(agrees.told);
+  EXPECT_FALSE(agrees.sides_swapped);
+  EXPECT_NEAR(agrees.person_score, 0.9, 1e-9);
+  EXPECT_NEAR(agrees.disagreement[kWrist], 0.0, 1e-9);
+  const ImageEvidence differs =
+      image_evidence(with_wrist_moved({0.5, 0.0, 0.0}), observation_, params_);
+  EXPECT_GT(differs.disagreement[kWrist], 0.9);
+  EXPECT_NEAR(differs.disagreement[kElbow], 0.0, 1e-9);
+}
+
+TEST_F(ImageTerm, TellsNothingWithoutAnImage) {
+  observation_.has_image_pose = false;
+  EXPECT_EQ(cost(with_wrist_moved({0.5, 0.0, 0.0})), 0.0);
+  EXPECT_FALSE(image_evidence(body_, observation_, params_).told);
+}
+
+}  // namespace
+}  // namespace limbcast::pose_fitter::refined
