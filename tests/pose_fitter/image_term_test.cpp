@@ -36,7 +36,7 @@ class ImageTerm : public ::testing::Test {
   }
 
   const BodyState body_ = testing::standing_body(2.5, 0.0);
-  const RefinedParams params_;
+  const RefinedParams params_{};
   Observation observation_;
   const std::unique_ptr<NormalEquations> equations_ = std::make_unique<NormalEquations>();
 };

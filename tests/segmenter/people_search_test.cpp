@@ -28,7 +28,7 @@ class UnsureHeads : public ::testing::Test {
     };
   }
 
-  const ClassifierParams params_;
+  const ClassifierParams params_{};
   const Lattice lattice_ = look_at([](float right_m, float up_m) {
     return std::abs(right_m) < 0.2F && up_m < 0.9F ? kBody_m : 0.0F;
   });
