@@ -42,6 +42,14 @@ TEST_F(Confidence, OfADirectionFallsWhereTheArmExplainsLittle) {
   EXPECT_LT(of_direction(), before);
 }
 
+TEST_F(Confidence, OfAJointFallsWhereTheImageShowsItElsewhere) {
+  evidence_.image.told = true;
+  evidence_.image.visibility.fill(1.0);
+  const Real before = joint_confidence(evidence_, kWrist);
+  evidence_.image.disagreement[kWrist] = 1.0;
+  EXPECT_LT(joint_confidence(evidence_, kWrist), before);
+}
+
 TEST_F(Confidence, OfADirectionTakesTheSameGapForMoreWithAChild) {
   const Real before = of_direction();
   body_.log_stature = std::log(0.7);  // 1.2 m

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "modules/segmenter/segmenter.hpp"
+#include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/constant_classifier.hpp"
 #include "tests/segmenter/drawn_scene.hpp"
 
@@ -66,6 +69,34 @@ TEST_F(UnsureHeads, AreAskedTheImageForOnceAPerson) {
                                   rejected, always(1.0F));
   EXPECT_EQ(asked_, 1);
   EXPECT_EQ(heads.size(), 1U);
+}
+
+/// The person of the demo log's first frame, whose head is sought in the image however sure it is.
+class DemoPerson : public ::testing::Test {
+ protected:
+  DemoPerson() {
+    constexpr float kAll = 1e3F;
+    params_.classifier.min_asked_odds = -kAll;
+    params_.classifier.sure_head_odds = kAll;
+    params_.classifier.max_asked = 100;
+  }
+  /// People who were found by their heads.
+  long found() const {
+    const Segments segments = segment(test::demo_frame().cloud, params_);
+    return std::count_if(segments.segments.begin(), segments.segments.end(), [](const Segment& s) {
+      return s.valid() && s.seed_kind == SeedKind::kHeadShape;
+    });
+  }
+
+  Params params_;
+};
+
+TEST_F(DemoPerson, IsAHeadInTheImageToo) { EXPECT_EQ(found(), 1); }
+
+TEST_F(DemoPerson, IsNoHeadWhereTheImageShowsNone) {
+  constexpr float kNever = -100.0F;
+  params_.pose_network.base_odds = kNever;
+  EXPECT_EQ(found(), 0);
 }
 
 }  // namespace
