@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -34,6 +35,11 @@ struct StoredNetwork {
 Network unpack(const StoredNetwork& stored);
 
 inline float probability(float log_odds) { return 1.0F / (1.0F + std::exp(-log_odds)); }
+/// The same back; finite for 0 and 1 too.
+inline float log_odds(float probability) {
+  constexpr float kLeast = 1e-6F;
+  return std::log(std::max(kLeast, probability) / std::max(kLeast, 1.0F - probability));
+}
 
 /// Bounded and steep at zero, as tanh, without a call: x / (1 + |x|).
 inline float soft_sign(float x) { return x / (1.0F + (x < 0.0F ? -x : x)); }

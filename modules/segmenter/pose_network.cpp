@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "modules/segmenter/network.hpp"
+
 // Beginning and end of what pose_network_model.S holds.
 extern "C" {
 extern const char limbcast_pose_network_begin[];
@@ -66,8 +68,6 @@ cv::dnn::Net read_network() {
   }
 }
 
-float sigmoid(float x) { return 1.0F / (1.0F + std::exp(-x)); }
-
 /// What the network tells of a person, in the pixels of its input.
 struct Landmarks {
   // One row a landmark: column, row, depth [px], visibility, presence [log odds].
@@ -78,7 +78,7 @@ struct Landmarks {
 
   Eigen::Vector2f px(int landmark) const { return {in_input(landmark, 0), in_input(landmark, 1)}; }
   float visibility(int landmark) const {
-    return sigmoid(in_input(landmark, 3)) * sigmoid(in_input(landmark, 4));
+    return probability(in_input(landmark, 3)) * probability(in_input(landmark, 4));
   }
   float behind_hips_m(int landmark) const { return in_world(landmark, 2); }
 };

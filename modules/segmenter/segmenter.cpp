@@ -64,11 +64,6 @@ Eigen::Vector3f down_of(const LevelFrame& frame) {
   return -frame.level_from_sensor.row(2).transpose();
 }
 
-float log_odds(float probability) {
-  constexpr float kLeast = 1e-6F;
-  return std::log(std::max(kLeast, probability) / std::max(kLeast, 1.0F - probability));
-}
-
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
