@@ -1,5 +1,3 @@
-#include <opencv2/core.hpp>
-
 #include "common/config/log.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/segmenter/stage.hpp"
@@ -16,9 +14,6 @@ void run(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
 
-  // A second thread ends the pose network at best 5 ms sooner and takes 5 to 20 ms more CPU, which
-  // the other modules need.
-  cv::setNumThreads(1);
   lcm_io::Module module("segmenter", parser.common());
   const Stage stage(options);
   if (!stage.problem().empty()) {

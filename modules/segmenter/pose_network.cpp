@@ -1,21 +1,15 @@
 #include "modules/segmenter/pose_network.hpp"
 
-#include <zstd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/dnn.hpp>
-#include <stdexcept>
-#include <string>
+#include <opencv2/imgproc.hpp>
 
 #include "modules/segmenter/network.hpp"
+#include "modules/segmenter/tflite_network.hpp"
 
-// Beginning and end of what pose_network_model.S holds.
-extern "C" {
-extern const char limbcast_pose_network_begin[];
-extern const char limbcast_pose_network_end[];
-}
+// The file in pose_network_model.S.
+extern "C" const char limbcast_pose_network[];
 
 namespace limbcast::segmenter {
 namespace {
@@ -25,8 +19,7 @@ constexpr int kInput_px = 256;
 /// The square may not be wider [px]: so near to the camera its places are no numbers to work with.
 constexpr float kLongestSide_px = 1e5F;
 
-// The network's landmarks: 33 of the body (models/README.md), 6 for its authors' tracking.
-constexpr int kLandmarks = 39;
+// The network's landmarks (models/README.md).
 constexpr int kLeftEar = 7, kRightEar = 8;
 struct JointLandmark {
   Joint joint;
@@ -45,42 +38,20 @@ constexpr std::array<JointLandmark, 12> kJointLandmarks = {{{Joint::kShoulderLef
                                                             {Joint::kAnkleLeft, 27},
                                                             {Joint::kAnkleRight, 28}}};
 
-/// The model as OpenCV reads it.
-std::vector<uchar> unpack_model() {
-  const auto size =
-      static_cast<std::size_t>(limbcast_pose_network_end - limbcast_pose_network_begin);
-  std::vector<uchar> model(ZSTD_getFrameContentSize(limbcast_pose_network_begin, size));
-  const std::size_t unpacked =
-      ZSTD_decompress(model.data(), model.size(), limbcast_pose_network_begin, size);
-  if (unpacked != model.size())
-    throw std::runtime_error("the pose network that limbcast was built with is damaged");
-  return model;
-}
-
-cv::dnn::Net read_network() {
-  try {
-    return cv::dnn::readNetFromONNX(unpack_model());
-  } catch (const cv::Exception& error) {
-    throw std::runtime_error(
-        "this OpenCV does not read the pose network (Debian 12's does); run without it "
-        "(pose-network=false): " +
-        error.err);
-  }
-}
-
 /// What the network tells of a person, in the pixels of its input.
 struct Landmarks {
-  // One row a landmark: column, row, depth [px], visibility, presence [log odds].
-  cv::Mat1f in_input;
-  // One row a landmark: right, down, away [m], from the middle of the hips.
-  cv::Mat1f in_world;
-  float score = 0.0F;
+  const float*
+      in_input;  // for each landmark: column, row, depth [px], visibility, presence [log odds]
+  const float* in_world;  // for each landmark: right, down, away [m], from the middle of the hips
+  float score;
 
-  Eigen::Vector2f px(int landmark) const { return {in_input(landmark, 0), in_input(landmark, 1)}; }
-  float visibility(int landmark) const {
-    return probability(in_input(landmark, 3)) * probability(in_input(landmark, 4));
+  Eigen::Vector2f px(int landmark) const {
+    return {in_input[5 * landmark], in_input[5 * landmark + 1]};
   }
-  float behind_hips_m(int landmark) const { return in_world(landmark, 2); }
+  float visibility(int landmark) const {
+    return probability(in_input[5 * landmark + 3]) * probability(in_input[5 * landmark + 4]);
+  }
+  float behind_hips_m(int landmark) const { return in_world[3 * landmark + 2]; }
 };
 
 /// The head is where the middle of the ears is; the nearer one is seen.
@@ -132,27 +103,32 @@ cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
 
 }  // namespace
 
-/// The network of one thread: OpenCV's keeps what it works on.
+/// The network of one thread: XNNPACK's keeps what it works on.
 class PoseNetwork::Network {
  public:
+  explicit Network(const TfliteFile& file)
+      : network_(file, {"Identity", "Identity_4", "Identity_1"}) {}
+
   /// The result is this object's until the next call.
-  Landmarks run(const cv::Mat3b& input) {
+  Landmarks run(const cv::Mat3b& image) {
     constexpr double kWhite = 255.0;
-    constexpr bool kSwapBlueAndRed = true;
-    net_.setInput(cv::dnn::blobFromImage(input, 1.0 / kWhite, {}, {}, kSwapBlueAndRed));
-    net_.forward(outputs_, {"landmarks", "world_landmarks", "score"});
-    return {outputs_[0].reshape(1, kLandmarks), outputs_[1].reshape(1, kLandmarks),
-            outputs_[2].at<float>(0)};
+    cv::Mat3b rgb;
+    cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
+    cv::Mat3f input(kInput_px, kInput_px, reinterpret_cast<cv::Vec3f*>(network_.input()));
+    rgb.convertTo(input, CV_32F, 1.0 / kWhite);
+    network_.run();
+    return {network_.output(0), network_.output(1), network_.output(2)[0]};
   }
 
  private:
-  cv::dnn::Net net_ = read_network();
-  std::vector<cv::Mat> outputs_;
+  TfliteNetwork network_;
 };
 
 PoseNetwork::PoseNetwork(const PoseNetworkParams& params) : params_(params) {
-  if (params.enabled)
-    networks_ = std::make_unique<InstancePool<Network>>([] { return std::make_unique<Network>(); });
+  if (!params.enabled) return;
+  file_ = std::make_unique<TfliteFile>(read_tflite(limbcast_pose_network));
+  networks_ = std::make_unique<InstancePool<Network>>(
+      [file = file_.get()] { return std::make_unique<Network>(*file); });
 }
 
 PoseNetwork::~PoseNetwork() = default;

@@ -11,6 +11,7 @@
 #include "modules/segmenter/color_patch.hpp"
 #include "modules/segmenter/instance_pool.hpp"
 #include "modules/segmenter/params.hpp"
+#include "modules/segmenter/tflite_file.hpp"
 
 namespace limbcast::segmenter {
 
@@ -42,6 +43,7 @@ class PoseNetwork {
                                              const Eigen::Vector3f& down) const;
 
   PoseNetworkParams params_;
+  std::unique_ptr<TfliteFile> file_;
   std::unique_ptr<InstancePool<Network>> networks_;
 };
 

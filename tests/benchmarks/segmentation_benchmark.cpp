@@ -68,25 +68,15 @@ void look_for_a_face(benchmark::State& state, float below_m) {
 BENCHMARK_CAPTURE(look_for_a_face, face, 0.0F)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(look_for_a_face, no_face, 0.5F)->Unit(benchmark::kMillisecond);
 
-/// The pose network at the first person, with so many of OpenCV's threads.
-void see_joints(benchmark::State& state, int threads) {
-  const int before = cv::getNumThreads();
-  cv::setNumThreads(threads);
+/// The pose network at the first person.
+void see_joints(benchmark::State& state) {
   const PoseNetwork network({});
   const std::vector<std::int16_t> labels(cloud().points_m.size(), kNobody);
   for (auto _ : state)
     benchmark::DoNotOptimize(
         network.look(cloud(), {labels, 0, seed_m()}, cloud().stamp.gravity.down));
-  cv::setNumThreads(before);
 }
-BENCHMARK_CAPTURE(see_joints, one_thread, 1)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(see_joints, two_threads, 2)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK(see_joints)->Unit(benchmark::kMillisecond);
 
 using MakeSearch = std::unique_ptr<NeighborSearch> (*)(const Cloud&);
 

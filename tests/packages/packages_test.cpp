@@ -80,7 +80,7 @@ TEST_F(Packages, TellTheLicenceOfThePoseNetwork) {
 TEST_F(Packages, NameWhatTheyNeed) {
   const std::string tools = tell("--info", "limbcast-tools");
   EXPECT_THAT(tools, HasSubstr("libopencv-core406"));
-  EXPECT_THAT(tools, HasSubstr("libopencv-dnn406"));
+  EXPECT_THAT(tools, HasSubstr("libxnnpack0"));
   EXPECT_THAT(tools, HasSubstr("liblcm-bin"));
   EXPECT_THAT(tools, HasSubstr("opencv-data"));
   EXPECT_THAT(tools, HasSubstr("conffiles"));
