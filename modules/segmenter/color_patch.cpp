@@ -3,6 +3,41 @@
 #include <opencv2/imgproc.hpp>
 
 namespace limbcast::segmenter {
+namespace {
+
+/// Colours times their weights, and the weights: 1 for a pixel that is known, 0 for one that is
+/// not.
+struct WeightedImage {
+  cv::Mat3f sum;
+  cv::Mat1f weight;
+};
+
+WeightedImage halved(const WeightedImage& image) {
+  const cv::Size half((image.weight.cols + 1) / 2, (image.weight.rows + 1) / 2);
+  WeightedImage result;
+  cv::resize(image.sum, result.sum, half, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(image.weight, result.weight, half, 0.0, 0.0, cv::INTER_AREA);
+  return result;
+}
+
+/// Pull and push (S. Gortler et al., "The Lumigraph", SIGGRAPH 1996): what is missing at one
+/// resolution comes from the next lower one.
+cv::Mat3f filled(const WeightedImage& image) {
+  constexpr float kLeastWeight = 1e-6F;
+  const cv::Size size = image.weight.size();
+  cv::Mat3f colors(size, cv::Vec3f(0.0F, 0.0F, 0.0F));
+  if (size.width > 1 || size.height > 1)
+    cv::resize(filled(halved(image)), colors, size, 0.0, 0.0, cv::INTER_LINEAR);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const float weight = image.weight(v, u);
+      if (weight > kLeastWeight) colors(v, u) = image.sum(v, u) + (1.0F - weight) * colors(v, u);
+    }
+  }
+  return colors;
+}
+
+}  // namespace
 
 cv::Mat3b color_image(const Cloud& cloud) {
   // OpenCV has no view of constant data.
@@ -30,6 +65,17 @@ cv::Mat3b cut_out(const cv::Mat3b& image, const UprightSquare& square, int patch
   cv::warpAffine(image, patch, rows, cv::Size(patch_px, patch_px),
                  cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, outside);
   return patch;
+}
+
+void fill_in(cv::Mat3b& image, const cv::Mat1b& hole) {
+  WeightedImage known{cv::Mat3f(image.size()), cv::Mat1f(image.size())};
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      known.weight(v, u) = hole(v, u) == 0 ? 1.0F : 0.0F;
+      known.sum(v, u) = known.weight(v, u) * cv::Vec3f(image(v, u));
+    }
+  }
+  cv::Mat3b(filled(known)).copyTo(image, hole);
 }
 
 }  // namespace limbcast::segmenter

@@ -25,4 +25,7 @@ Eigen::Affine2f image_from_patch(const UprightSquare& square, int patch_px);
 cv::Mat3b cut_out(const cv::Mat3b& image, const UprightSquare& square, int patch_px,
                   cv::BorderTypes outside);
 
+/// Fills what `hole` marks (non-zero) smoothly with the colours around it; black where all is hole.
+void fill_in(cv::Mat3b& image, const cv::Mat1b& hole);
+
 }  // namespace limbcast::segmenter

@@ -86,18 +86,20 @@ cv::Rect part_around(const UprightSquare& square, const cv::Size& image) {
   return {left, top, right - left, bottom - top};
 }
 
-/// A part of the cloud's image without other people.
+/// A part of the cloud's image without other people. Their silhouettes would look like people, so
+/// what is around them is drawn on.
 cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
                             const cv::Rect& part) {
-  const cv::Vec3b gray(128, 128, 128);
   cv::Mat3b image = color_image(cloud)(part).clone();
+  cv::Mat1b others(part.size(), 0);
   for (int v = 0; v < part.height; ++v) {
     const std::int16_t* labels =
         person.labels.data() + static_cast<std::size_t>(part.y + v) * cloud.width + part.x;
     for (int u = 0; u < part.width; ++u) {
-      if (labels[u] >= 0 && labels[u] != person.label) image(v, u) = gray;
+      if (labels[u] >= 0 && labels[u] != person.label) others(v, u) = 1;
     }
   }
+  if (cv::countNonZero(others) > 0) fill_in(image, others);
   return image;
 }
 
