@@ -17,6 +17,8 @@ namespace {
 constexpr int kReceiveTimeoutMs = 50;
 /// How often a host without network is asked again.
 constexpr std::chrono::milliseconds kNetworkPeriod{200};
+/// How often the group is joined anew, in case the device or the route has changed.
+constexpr std::chrono::seconds kMembershipPeriod{1};
 
 /// What LCM is started with.
 std::string url_within_limits(const std::string& url) {
@@ -57,7 +59,7 @@ void wait_for_network(const std::string& url) {
   }
 }
 
-Bus::Bus(const std::string& url) : lcm_(url_within_limits(url)) {
+Bus::Bus(const std::string& url) : lcm_(url_within_limits(url)), membership_(effective_url(url)) {
   if (!lcm_.good())
     throw config::UsageError(
         "lcm-url '" + effective_url(url) +
@@ -129,7 +131,14 @@ void Bus::receive() {
     const std::lock_guard lock(mutex_);
     return ending_;
   };
-  while (!ending()) lcm_.handleTimeout(kReceiveTimeoutMs);
+  auto next_renewal = std::chrono::steady_clock::now();
+  while (!ending()) {
+    lcm_.handleTimeout(kReceiveTimeoutMs);
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_renewal) continue;
+    membership_.renew();
+    next_renewal = now + kMembershipPeriod;
+  }
 }
 
 Bus::Subscription* Bus::first_pending() {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/group_membership.hpp"
 
 namespace limbcast::lcm_io {
 
@@ -108,6 +109,7 @@ class Bus {
   Subscription* first_pending();
 
   lcm::LCM lcm_;
+  GroupMembership membership_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::function<void(const std::string&, const std::string&)> on_malformed_;
   mutable std::mutex mutex_;
