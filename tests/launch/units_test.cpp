@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 #include "tests/support/child_process.hpp"
 
@@ -28,7 +29,7 @@ class Units : public ::testing::Test {
                "--prefix", "/usr", "--component", component});
       ASSERT_EQ(installed.exit_code, 0) << installed.output;
     }
-    for (const char* program : {"lcm-logger", "ip"}) {
+    for (const char* program : {"lcm-logger", "ip", "sh"}) {
       const auto copied =
           run({"sh", "-c", "cp -L \"$(command -v $0)\" $1", program, (root_ / "usr/bin").string()});
       ASSERT_EQ(copied.exit_code, 0) << copied.output;
@@ -106,6 +107,38 @@ TEST_F(Units, ReadTheSettingsOfTheRobotOrOfTheirSensor) {
               HasSubstr("\nExecStart=limbcast-segmenter --config /etc/limbcast/%i.conf\n"));
   // A restart does not mend wrong settings.
   EXPECT_THAT(text_of("limbcast-segmenter.service"), HasSubstr("\nRestartPreventExitStatus=2\n"));
+}
+
+/// What the shell of limbcast-route@DEVICE.service runs.
+std::string route_script(const std::string& unit, const std::string& device) {
+  std::smatch match;
+  if (!std::regex_search(unit, match, std::regex("\nExecStart=sh -c '([^']*)'\n"))) return "";
+  const std::string shell = std::regex_replace(match[1].str(), std::regex(R"(\$\$)"), "$$");
+  return std::regex_replace(shell, std::regex("%i"), device);
+}
+
+TEST_F(Units, SetTheRouteWheneverItsDeviceComesUp) {
+  if (run({"unshare", "--net", "true"}).exit_code != 0) GTEST_SKIP() << "needs network namespaces";
+  const std::string script = route_script(text_of("limbcast-route@.service"), "eth1");
+  ASSERT_NE(script, "");
+  // Where the unit sleeps, the device takes its next turn.
+  const std::string turns = R"sh(
+    sleep() {
+      turn=$((turn + 1))
+      echo "turn $turn: $(ip route show 224.0.0.0/4)"
+      case $turn in
+        1) ip link set eth1 up ;;
+        2) ip link set eth1 down; ip link set eth1 up ;;
+        3) exit 0 ;;
+      esac
+    }
+    ip link add eth1 type veth peer name far
+  )sh";
+  const auto result = run({"unshare", "--net", "sh", "-c", turns + script});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, ::testing::MatchesRegex("turn 1: \n"
+                                                     "turn 2: 224.0.0.0/4 dev eth1[^\n]*\n"
+                                                     "turn 3: 224.0.0.0/4 dev eth1[^\n]*\n"));
 }
 
 }  // namespace
