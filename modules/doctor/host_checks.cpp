@@ -34,7 +34,9 @@ std::string route_command(const std::string& interface) {
   return "ip route replace 224.0.0.0/4 dev " + interface;
 }
 
-std::string kilobytes(std::int64_t bytes) { return std::to_string(bytes / 1000) + " kB"; }
+std::string kilobytes(std::int64_t bytes) {
+  return bytes < 1000 ? std::to_string(bytes) + " bytes" : std::to_string(bytes / 1000) + " kB";
+}
 
 Findings check_interface(const Interface& interface) {
   if (!interface.up)

@@ -105,6 +105,11 @@ TEST(CheckReceiveBuffer, IsContentWithLessThanTheUrlAsksForWhereItSuffices) {
   EXPECT_EQ(findings[0].text, "1500 kB for messages of up to 200 kB");
 }
 
+TEST(CheckReceiveBuffer, CountsSmallMessagesInBytes) {
+  EXPECT_EQ(check_receive_buffer(good_host(), kNetwork, 900).front().text,
+            "4000 kB for messages of up to 900 bytes");
+}
+
 TEST(CheckReceiveBuffer, NotesThatOtherProgramsGetLittleWhereTheUrlNamesNone) {
   const Findings findings = check_receive_buffer(good_host(), kThisHost, 0);
   ASSERT_EQ(findings.size(), 2U);
