@@ -14,7 +14,8 @@ class InstancePool {
  public:
   using Make = std::function<std::unique_ptr<T>()>;
 
-  explicit InstancePool(Make make) : make_(std::move(make)) {}
+  /// Makes the first at once: what `make` throws shows at the start of a program, not in its work.
+  explicit InstancePool(Make make) : make_(std::move(make)) { idle_.push_back(make_()); }
 
   /// What `work` says of an object that is idle, or made for it. One that throws is not used again.
   template <class Work>
