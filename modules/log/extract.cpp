@@ -47,6 +47,17 @@ void make_folder(const std::string& folder) {
   if (error) throw UsageError(folder + ": cannot be made (" + error.message() + ")");
 }
 
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+UsageError no_such_sensor(const ExtractOptions& options, const std::set<std::string>& sensors) {
+  return UsageError(options.in + ": holds nothing of sensor '" + options.sensor + "', but of " +
+                    joined(sensors));
+}
+
 /// First pass: which sensor's frames are meant.
 std::string chosen_sensor(const ExtractOptions& options) {
   std::set<std::string> sensors;
@@ -58,16 +69,13 @@ std::string chosen_sensor(const ExtractOptions& options) {
       sensors.insert(summary.stamp->sensor);
   }
   if (!options.sensor.empty() && sensors.count(options.sensor) > 0) return options.sensor;
-  std::string names;
-  for (const std::string& sensor : sensors) names += (names.empty() ? "" : ", ") + sensor;
   if (sensors.empty())
     throw UsageError(options.in +
                      ": holds nothing of the kind; limbcast-log info shows what it has");
-  if (!options.sensor.empty())
-    throw UsageError(options.in + ": holds nothing of sensor '" + options.sensor + "', but of " +
-                     names);
+  if (!options.sensor.empty()) throw no_such_sensor(options, sensors);
   if (sensors.size() > 1)
-    throw UsageError(options.in + ": holds several sensors; choose one with --sensor: " + names);
+    throw UsageError(options.in +
+                     ": holds several sensors; choose one with --sensor: " + joined(sensors));
   return *sensors.begin();
 }
 
@@ -157,7 +165,10 @@ class PoseWriter {
   void take(const LogEvent& event) {
     if (summarize(event).type != body_poses_t::getTypeName()) return;
     const BodyPoses poses = lcm_io::from_message(decode<body_poses_t>(event.data));
-    if (!options_.sensor.empty() && poses.stamp.sensor != options_.sensor) return;
+    if (!options_.sensor.empty() && poses.stamp.sensor != options_.sensor) {
+      other_sensors_.insert(poses.stamp.sensor);
+      return;
+    }
     std::ofstream& file = files_[event.channel];
     if (!file.is_open()) file.open(options_.folder + "/" + event.channel + ".jsonl");
     file << pose_json::to_line(poses) << '\n';
@@ -170,6 +181,7 @@ class PoseWriter {
       file.close();
       if (!file) throw std::runtime_error(options_.folder + ": cannot write poses there");
     }
+    if (lines_ == 0 && !other_sensors_.empty()) throw no_such_sensor(options_, other_sensors_);
     if (lines_ == 0) throw UsageError(options_.in + ": holds no poses; limbcast-replay adds them");
     return lines_;
   }
@@ -177,6 +189,7 @@ class PoseWriter {
  private:
   const ExtractOptions& options_;
   std::map<std::string, std::ofstream> files_;
+  std::set<std::string> other_sensors_;
   std::int64_t lines_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "modules/log/extract.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace limbcast::logs {
 namespace {
 
 using lcm_io::LogEvent;
+using ::testing::HasSubstr;
 
 std::vector<LogEvent> on(const std::string& channel, const std::vector<LogEvent>& events) {
   std::vector<LogEvent> found;
@@ -116,6 +118,18 @@ TEST_F(Extract, AsksForTheSensorWhereThereAreSeveral) {
   EXPECT_EQ(extract(clouds).frames, 1);
   clouds.sensor = "left";
   EXPECT_THROW(extract(clouds), config::UsageError);
+}
+
+TEST_F(Extract, NamesTheSensorsWhosePosesThereAre) {
+  write_ten_frames(log_);
+  ExtractOptions poses = options(log_, Extracted::kPoses);
+  poses.sensor = "none";
+  try {
+    extract(poses);
+    FAIL() << "must throw";
+  } catch (const config::UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("holds nothing of sensor 'none', but of front"));
+  }
 }
 
 TEST_F(Extract, RefusesALogWithNothingOfTheKind) {
