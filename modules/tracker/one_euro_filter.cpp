@@ -30,7 +30,8 @@ void OneEuroFilter::restart(const Eigen::Vector3f& value) {
 }
 
 void OneEuroFilter::update(const Eigen::Vector3f& value, double elapsed_s) {
-  const Eigen::Vector3f taken = rests() ? median(value, last_measured_, value_) : value;
+  const bool may_be_wrong = rests() && !goes_on(value);
+  const Eigen::Vector3f taken = may_be_wrong ? median(value, last_measured_, value_) : value;
   const Eigen::Vector3f measured_speed = (value - last_measured_) / static_cast<float>(elapsed_s);
   const float change = sample_weight(params_.speed_cutoff_hz, elapsed_s);
   speed_ += change * (measured_speed - speed_);
@@ -42,6 +43,11 @@ void OneEuroFilter::update(const Eigen::Vector3f& value, double elapsed_s) {
   memory_ = std::min(memory_ + 1.0, 1.0 / sample_weight(cutoff_hz, elapsed_s));
   value_ += (taken - value_) / static_cast<float>(memory_);
   last_measured_ = value;
+}
+
+bool OneEuroFilter::goes_on(const Eigen::Vector3f& value) const {
+  const Eigen::Vector3f before = last_measured_ - value_;
+  return before.norm() > params_.rest_distance && before.dot(value - value_) > before.squaredNorm();
 }
 
 void OneEuroFilter::predict(double elapsed_s, double decay_s) {

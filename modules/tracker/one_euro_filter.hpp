@@ -9,7 +9,8 @@ namespace limbcast::tracker {
 /// as that; a mean of all samples since the last motion until the cutoff allows no longer memory,
 /// so that a value is steady soon after it came to rest; and at rest the median of the sample, the
 /// one before and the smoothed value instead of the sample, so that one sample that is wrong does
-/// not move it. A motion out of rest is seen one sample later for that.
+/// not move it. Only the first sample of a motion out of rest is late for that: where the second
+/// goes on from it, nothing is wrong.
 struct OneEuroParams {
   /// Cutoff at rest [Hz]. Lower: less jitter. 0.05 Hz at 10 frames a second leaves 12 % of white
   /// noise.
@@ -51,6 +52,8 @@ class OneEuroFilter {
 
  private:
   bool rests() const { return memory_ >= params_.samples_to_rest; }
+  /// True where the last measurement was off by more than noise and `value` is farther that way.
+  bool goes_on(const Eigen::Vector3f& value) const;
 
   OneEuroParams params_;
   bool started_ = false;

@@ -81,6 +81,16 @@ TEST(OneEuroFilter, FollowsAMotionOutOfRestFromItsSecondSampleOn) {
   }
 }
 
+TEST(OneEuroFilter, FollowsASlowMotionOutOfRestFromItsSecondSampleOn) {
+  OneEuroFilter filter = resting_filter();
+  constexpr float kStep_m = 0.04F;  // 0.4 m/s
+  filter.update({kStep_m, 0.0F, 0.0F}, kFrame_s);
+  for (int i = 2; i < 6; ++i) {
+    filter.update({kStep_m * static_cast<float>(i), 0.0F, 0.0F}, kFrame_s);
+    EXPECT_NEAR(filter.value().x(), kStep_m * static_cast<float>(i), 0.5F * kStep_m) << i;
+  }
+}
+
 TEST(OneEuroFilter, PredictsAlongItsSpeedAndComesToRest) {
   OneEuroFilter filter({});
   filter.restart(Vector3f::Zero());
