@@ -144,9 +144,20 @@ std::vector<double> deviations(const std::vector<Vector3f>& values) {
   return result;
 }
 
+std::vector<double> steps(const std::vector<Vector3f>& values) {
+  std::vector<double> result;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    result.push_back((values[i] - values[i - 1]).norm());
+  return result;
+}
+
+/// What a rest's values tell of their restlessness.
+using Restlessness = std::function<std::vector<double>(const std::vector<Vector3f>&)>;
+
 /// Of errors, not of places: nobody stands still to the millimetre.
 void add_rests(const Life& life, const Quantity& quantity, double rest_speed, int min_frames,
-               TrackingTally::Groups& untracked, TrackingTally::Groups& tracked) {
+               const Restlessness& restlessness, TrackingTally::Groups& untracked,
+               TrackingTally::Groups& tracked) {
   for_each_rest(life, quantity, rest_speed, [&](std::size_t begin, std::size_t end) {
     std::vector<Vector3f> errors_untracked, errors_tracked;
     for (std::size_t i = begin; i < end; ++i) {
@@ -158,8 +169,8 @@ void add_rests(const Life& life, const Quantity& quantity, double rest_speed, in
       errors_tracked.push_back(*after - *truth);
     }
     if (static_cast<int>(errors_tracked.size()) < min_frames) return;
-    untracked.push_back(deviations(errors_untracked));
-    tracked.push_back(deviations(errors_tracked));
+    untracked.push_back(restlessness(errors_untracked));
+    tracked.push_back(restlessness(errors_tracked));
   });
 }
 
@@ -201,14 +212,17 @@ void add_life(const Life& life, const TrackingParams& params, TrackingTally& tal
   count_switches(life, tally);
   for (int joint = 0; joint < kJointCount; ++joint) {
     const Quantity position = position_mm(joint);
-    add_rests(life, position, params.rest_speed_m_s * kMillimetersPerMeter<float>,
-              params.min_rest_frames, tally.untracked_joints_mm, tally.tracked_joints_mm);
+    const double rest_speed_mm_s = params.rest_speed_m_s * kMillimetersPerMeter<float>;
+    add_rests(life, position, rest_speed_mm_s, params.min_rest_frames, deviations,
+              tally.untracked_joints_mm, tally.tracked_joints_mm);
+    add_rests(life, position, rest_speed_mm_s, params.min_rest_frames, steps,
+              tally.untracked_steps_mm, tally.tracked_steps_mm);
     auto lags_frames = lags(life, position, params.moving_speed_m_s * kMillimetersPerMeter<float>);
     if (!lags_frames.empty()) tally.lags_frames.push_back(std::move(lags_frames));
   }
   for (const Side side : {Side::kLeft, Side::kRight})
     add_rests(life, pointing_direction_deg(side), params.rest_speed_deg_s, params.min_rest_frames,
-              tally.untracked_directions_deg, tally.tracked_directions_deg);
+              deviations, tally.untracked_directions_deg, tally.tracked_directions_deg);
 }
 
 std::optional<double> median(const std::vector<double>& values) { return quantile(values, 0.5); }
@@ -290,6 +304,8 @@ std::vector<Figure> tracking_figures(const TrackingTally& tally) {
              tally.tracked_joints_mm, median, joints, figures);
   add_jitter("jitter_rms", "mm", "resting joints, jitter RMS", tally.untracked_joints_mm,
              tally.tracked_joints_mm, root_mean_square, joints, figures);
+  add_jitter("jitter_step_rms", "mm", "resting joints, step RMS",
+             tally.untracked_steps_mm, tally.tracked_steps_mm, root_mean_square, joints, figures);
   add_jitter("pointing_jitter_rms", "degrees", "resting arms, jitter RMS",
              tally.untracked_directions_deg, tally.tracked_directions_deg, root_mean_square,
              directions, figures);

@@ -25,7 +25,9 @@ struct TrackingTally {
   /// Distances of a joint's error from the middle of its errors during a rest [mm], in frames where
   /// both told the joint.
   Groups untracked_joints_mm, tracked_joints_mm;
-  /// The same of pointing directions [degrees].
+  /// How much a joint's error changes from one such frame of a rest to the next [mm].
+  Groups untracked_steps_mm, tracked_steps_mm;
+  /// Distances from the middle, of pointing directions [degrees].
   Groups untracked_directions_deg, tracked_directions_deg;
   /// How far moving joints lag behind the untracked ones [frames], from their distance along the
   /// true motion.

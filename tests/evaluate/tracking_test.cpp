@@ -68,6 +68,19 @@ TEST(EvaluateTracking, TellsWhatIsLeftOfTheJitterOfJointsAtRest) {
   EXPECT_NEAR(value_of(tally, "jitter_rms_left"), 25.0, 0.01);
 }
 
+TEST(EvaluateTracking, TellsHowMuchRestingJointsChangeFromFrameToFrame) {
+  Recording recording;
+  for (int i = 0; i < 10; ++i) {
+    const float shake_m = i % 2 == 0 ? 0.01F : -0.01F;
+    const float drift_m = 0.005F * static_cast<float>(i);
+    recording.add(standing_figure(), standing_figure(shake_m), standing_figure(drift_m));
+  }
+  const TrackingTally tally = recording.tally();
+  EXPECT_NEAR(value_of(tally, "jitter_step_rms_untracked_mm"), 20.0, 0.01);
+  EXPECT_NEAR(value_of(tally, "jitter_step_rms_tracked_mm"), 5.0, 0.01);
+  EXPECT_NEAR(value_of(tally, "jitter_step_rms_left"), 25.0, 0.1);
+}
+
 TEST(EvaluateTracking, TellsByHowManyFramesMovingJointsLag) {
   Recording recording;
   constexpr float kStep_m = 0.1F;
