@@ -39,15 +39,22 @@ Real share_of_limit(const SeenJoint& seen, const Vec3& point, const RefinedParam
   return ratio / (1.0 + ratio);
 }
 
-Real disagreement(const BodyState& body, const Observation& observation, unsigned parts,
-                  const RefinedParams& params, bool swapped) {
-  Real cost = 0.0;
+/// What joints cost with the sides as the image tells them, and with left and right exchanged.
+struct SideCosts {
+  Real as_told = 0.0, exchanged = 0.0;
+};
+
+SideCosts side_costs(const BodyState& body, const Observation& observation, unsigned parts,
+                     const RefinedParams& params) {
+  SideCosts costs;
   for (int joint = 0; joint < kJointCount; ++joint) {
     if ((parts & part_of(joint)) == 0) continue;
-    cost += image_cost(observation.seen_joints[swapped ? mirrored(joint) : joint],
-                       marked_place(body, joint), params);
+    const Vec3 place = marked_place(body, joint);
+    costs.as_told += image_cost(observation.seen_joints[joint], place, params);
+    costs.exchanged += image_cost(observation.seen_joints[mirrored(joint)], place, params);
   }
-  return cost;
+  costs.exchanged += params.image_swap_cost;
+  return costs;
 }
 
 }  // namespace
@@ -82,17 +89,19 @@ ImageEvidence image_evidence(const BodyState& body, const Observation& observati
 
 bool image_takes_sides_otherwise(const BodyState& body, const Observation& observation,
                                  unsigned parts, const RefinedParams& params) {
-  parts |= bit(Part::kTrunk);
-  return disagreement(body, observation, parts, params, true) + params.image_swap_cost <
-         disagreement(body, observation, parts, params, false);
+  const SideCosts costs = side_costs(body, observation, parts | bit(Part::kTrunk), params);
+  return costs.exchanged < costs.as_told;
 }
 
 void add_image_term(const BodyState& body, const Observation& observation, unsigned parts,
                     const RefinedParams& params, NormalEquations& equations) {
   if (!observation.has_image_pose) return;
-  const bool swapped = image_takes_sides_otherwise(body, observation, parts, params);
-  equations.cost += disagreement(body, observation, parts, params, swapped) +
-                    (swapped ? params.image_swap_cost : 0.0);
+  const unsigned parts_and_trunk = parts | bit(Part::kTrunk);
+  const SideCosts with_trunk = side_costs(body, observation, parts_and_trunk, params);
+  const bool swapped = with_trunk.exchanged < with_trunk.as_told;
+  const SideCosts costs =
+      parts == parts_and_trunk ? with_trunk : side_costs(body, observation, parts, params);
+  equations.cost += swapped ? costs.exchanged : costs.as_told;
   if (!equations.derivatives()) return;
   const Real sigma2 = params.image_sigma_m * params.image_sigma_m;
   const Real limit2 = params.image_limit_sigmas * params.image_limit_sigmas;
