@@ -304,8 +304,8 @@ std::vector<Figure> tracking_figures(const TrackingTally& tally) {
              tally.tracked_joints_mm, median, joints, figures);
   add_jitter("jitter_rms", "mm", "resting joints, jitter RMS", tally.untracked_joints_mm,
              tally.tracked_joints_mm, root_mean_square, joints, figures);
-  add_jitter("jitter_step_rms", "mm", "resting joints, step RMS",
-             tally.untracked_steps_mm, tally.tracked_steps_mm, root_mean_square, joints, figures);
+  add_jitter("jitter_step_rms", "mm", "resting joints, step RMS", tally.untracked_steps_mm,
+             tally.tracked_steps_mm, root_mean_square, joints, figures);
   add_jitter("pointing_jitter_rms", "degrees", "resting arms, jitter RMS",
              tally.untracked_directions_deg, tally.tracked_directions_deg, root_mean_square,
              directions, figures);
