@@ -22,7 +22,7 @@ struct OneEuroParams {
   double rest_speed = 0.25;
   /// Mean distance of the measured from the smoothed value that noise alone shows [unit]; more is a
   /// motion too slow for `rest_speed`.
-  double rest_distance = 0.025;
+  double rest_distance = 0.015;
   /// Cutoff of the speed and of that distance [Hz]; the paper has 1 Hz.
   double speed_cutoff_hz = 1.5;
   /// A value that is the mean of so many samples rests.
