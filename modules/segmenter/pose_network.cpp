@@ -40,18 +40,22 @@ constexpr std::array<JointLandmark, 12> kJointLandmarks = {{{Joint::kShoulderLef
 
 /// What the network tells of a person, in the pixels of its input.
 struct Landmarks {
-  const float*
-      in_input;  // for each landmark: column, row, depth [px], visibility, presence [log odds]
-  const float* in_world;  // for each landmark: right, down, away [m], from the middle of the hips
+  // Numbers of each landmark: column, row, depth [px], visibility, presence [log odds].
+  static constexpr int kInInput = 5;
+  const float* in_input;
+  // Numbers of each landmark: right, down, away [m], from the middle of the hips.
+  static constexpr int kInWorld = 3;
+  const float* in_world;
   float score;
 
   Eigen::Vector2f px(int landmark) const {
-    return {in_input[5 * landmark], in_input[5 * landmark + 1]};
+    return {in_input[kInInput * landmark], in_input[kInInput * landmark + 1]};
   }
   float visibility(int landmark) const {
-    return probability(in_input[5 * landmark + 3]) * probability(in_input[5 * landmark + 4]);
+    return probability(in_input[kInInput * landmark + 3]) *
+           probability(in_input[kInInput * landmark + 4]);
   }
-  float behind_hips_m(int landmark) const { return in_world[3 * landmark + 2]; }
+  float behind_hips_m(int landmark) const { return in_world[kInWorld * landmark + 2]; }
 };
 
 /// The head is where the middle of the ears is; the nearer one is seen.
