@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "modules/pose_fitter/refined/evidence.hpp"
+#include "modules/pose_fitter/refined/image_term.hpp"
 #include "modules/pose_fitter/refined/solver.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
@@ -25,6 +26,18 @@ float error_m(const BodyPose& pose, Joint joint, const BodyState& body) {
 float angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
   return std::acos(std::min(1.0F, a.dot(b.normalized().cast<float>()))) /
          static_cast<float>(kDegree);
+}
+
+/// A body as a perfect network for poses would see it.
+ImagePose in_image(const BodyState& body) {
+  ImagePose pose{1.0F, {}};
+  const float hips_z_m = static_cast<float>(body.points[index(Joint::kPelvis)].z());
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    const Eigen::Vector3f place_m = refined::marked_place(body, joint).cast<float>();
+    pose.joints.push_back({static_cast<Joint>(joint), testing::camera().project(place_m), 1.0F,
+                           place_m.z() - hips_z_m});
+  }
+  return pose;
 }
 
 class RefinedFitterAtYaw : public ::testing::TestWithParam<int> {};
@@ -116,6 +129,23 @@ TEST(RefinedFitter, TurnsABodyToTheSensorWhereAFaceIsSeen) {
   EXPECT_GT(left_m(), 0.2F);
 }
 
+TEST(RefinedFitter, TurnsABodyToTheSideThatTheImageShows) {
+  const auto left_behind_m = [](double image_yaw_deg) {
+    Segment segment = testing::seen(testing::standing_body(2.5, 90.0 * kDegree));
+    segment.image_pose = in_image(testing::standing_body(2.5, image_yaw_deg * kDegree));
+    RefinedParams params;
+    // Surer than any network, so that it is told what the image shows, however well the shape fits.
+    params.image_side_log_odds = 40.0;
+    const auto pose = RefinedFitter(params).fit(segment, testing::stamp());
+    EXPECT_TRUE(pose);
+    // Who looks to the image's right has the left shoulder farther away.
+    return (*pose)[Joint::kShoulderLeft].position_m.z() -
+           (*pose)[Joint::kShoulderRight].position_m.z();
+  };
+  EXPECT_GT(left_behind_m(90.0), 0.2F);
+  EXPECT_LT(left_behind_m(-90.0), -0.2F);
+}
+
 TEST(RefinedFitter, GivesTheSamePoseEveryTime) {
   BodyState body = testing::standing_body(3.0, 30.0 * kDegree);
   testing::point_with(body, 0, {1.0, -0.2, -0.5});
@@ -201,10 +231,12 @@ TEST(RefinedCost, RulesOutAnArmFarBehindTheTrunk) {
 
 TEST(RefinedCost, MindsATrunkTurnedAgainstTheFace) {
   const Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
-  auto observation = refined::observe(segment, testing::stamp(), RefinedParams{});
+  RefinedParams params;
+  params.front_cost_per_log_odds = 4.0;
+  auto observation = refined::observe(segment, testing::stamp(), params);
   ASSERT_TRUE(observation);
   const auto cost_at = [&](double yaw_deg) {
-    return face_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, 4.0);
+    return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
   };
   EXPECT_EQ(cost_at(0.0), 0.0);
   EXPECT_EQ(cost_at(180.0), 0.0);
@@ -226,6 +258,32 @@ TEST(RefinedCost, MindsATrunkTurnedAgainstTheFace) {
   EXPECT_NEAR(cost_at(-90.0), 6.0, 1e-6);
 }
 
+TEST(RefinedCost, MindsATrunkTurnedAgainstTheImage) {
+  const RefinedParams params;
+  const double most = params.front_cost_per_log_odds * params.image_side_log_odds;
+  const auto cost_at = [&](double yaw_deg, double image_yaw_deg) {
+    Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+    segment.image_pose = in_image(testing::standing_body(2.5, image_yaw_deg * kDegree));
+    const auto observation = refined::observe(segment, testing::stamp(), params);
+    return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
+  };
+  EXPECT_NEAR(cost_at(90.0, 90.0), 0.0, 0.01);
+  EXPECT_NEAR(cost_at(0.0, 90.0), 0.5 * most, 0.01 * most);
+  EXPECT_NEAR(cost_at(-90.0, 90.0), most, 0.01 * most);
+  EXPECT_NEAR(cost_at(-135.0, 45.0), 0.5 * most, 0.01 * most);
+  // The image term weighs left against right.
+  EXPECT_NEAR(cost_at(180.0, 0.0), 0.0, 0.01 * most);
+}
+
+TEST(RefinedCost, MindsNoTrunkWhereTheImageTellsNoSides) {
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.image_pose = in_image(testing::standing_body(2.5, 90.0 * kDegree));
+  for (ImageJoint& joint : segment.image_pose->joints) joint.visibility = 0.0F;
+  const RefinedParams params;
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);
+}
+
 TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
   segment.face.facing_log_odds = 3.0F;
@@ -238,7 +296,7 @@ TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
 
   // The shape alone is asked whether this is a person.
   EXPECT_GT(evidence.shape_flip_gap, 0.0);
-  EXPECT_NEAR(evidence.flip_gap - evidence.shape_flip_gap, 3.0 * params.face_cost_per_log_odds,
+  EXPECT_NEAR(evidence.flip_gap - evidence.shape_flip_gap, 3.0 * params.front_cost_per_log_odds,
               0.01);
 }
 

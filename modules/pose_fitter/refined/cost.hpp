@@ -58,9 +58,9 @@ void add_skin_term(const Cones& cones, const Observation& observation, unsigned 
 void add_prior_terms(const BodyState& body, const Cones& cones, const Observation& observation,
                      unsigned parts, const RefinedParams& params, NormalEquations& equations);
 
-/// A trunk turned against what the face tells; no part of `evaluate`, as it chooses between bodies
-/// and turns none.
-Real face_cost(const BodyState& body, const Observation& observation, Real cost_per_log_odds);
+/// A trunk turned against what the face and the depths that the image's network tells say of its
+/// front; no part of `evaluate`, as it chooses between bodies and turns none.
+Real front_cost(const BodyState& body, const Observation& observation, const RefinedParams& params);
 
 /// Looks for the nearest among the cones of `parts` and what `fixed` holds (may be null).
 void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,

@@ -152,7 +152,7 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
 
   evidence.flip_gap = flip_gap(candidates, [](const PoseCandidate& pose) { return pose.cost; });
   evidence.shape_flip_gap = flip_gap(candidates, [&](const PoseCandidate& pose) {
-    return pose.cost - face_cost(pose.body, observation, solver.params().face_cost_per_log_odds);
+    return pose.cost - front_cost(pose.body, observation, solver.params());
   });
   for (int side = 0; side < 2; ++side) {
     ArmEvidence& arm = evidence.arms[side];

@@ -21,7 +21,7 @@ struct ArmEvidence {
 struct Evidence {
   std::array<ArmEvidence, 2> arms;
   Real flip_gap = 0.0;        ///< cost that the best body facing the other way would add
-  Real shape_flip_gap = 0.0;  ///< the same without what the face tells
+  Real shape_flip_gap = 0.0;  ///< the same without what `front_cost` tells
   Real weight = 0.0;          ///< of all points
   Real head_odds = 0.0;       ///< logarithm of the odds that the segment began at a head
   ImageEvidence image;

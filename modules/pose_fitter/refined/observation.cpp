@@ -159,8 +159,8 @@ void set_seen_joints(const Segment& segment, const RangeImage& image, Observatio
   for (const ImageJoint& joint : segment.image_pose->joints) {
     const Eigen::Vector2f px = joint.px - origin_px;
     observation.seen_joints[index(joint.joint)] = {
-        image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(),
-        joint.visibility};
+        image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(), joint.visibility,
+        joint.behind_hips_m};
   }
 }
 

@@ -26,6 +26,7 @@ struct PointColumns {
 struct SeenJoint {
   Vec3 ray = Vec3::UnitZ();  ///< unit vector from the camera towards it
   Real visibility = 0.0;     ///< 0 to 1; 0: not told
+  Real behind_hips_m = 0.0;  ///< how much farther away than the hips' middle; rough
 };
 
 /// What the sensor saw of one person, made ready for many looks, in the range image's frame.

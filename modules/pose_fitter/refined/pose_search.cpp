@@ -238,18 +238,19 @@ void PoseSearch::move(PoseCandidate& pose) {
   }
 }
 
-/// The face speaks last: in the search it would leave too few bodies that face the other way, whose
-/// flips find arms that no other start finds.
-void PoseSearch::choose_by_face(std::vector<PoseCandidate>& poses) {
-  const auto with_face = [&](const PoseCandidate& pose) {
-    return pose.cost + face_cost(pose.body, observation_, params_.face_cost_per_log_odds);
+/// What tells of the front speaks last: in the search it would leave too few bodies that face the
+/// other way, whose flips find arms that no other start finds.
+void PoseSearch::choose_by_front(std::vector<PoseCandidate>& poses) {
+  const auto with_front = [&](const PoseCandidate& pose) {
+    return pose.cost + front_cost(pose.body, observation_, params_);
   };
-  const auto chosen = std::min_element(
-      poses.begin(), poses.end(),
-      [&](const PoseCandidate& a, const PoseCandidate& b) { return with_face(a) < with_face(b); });
+  const auto chosen = std::min_element(poses.begin(), poses.end(),
+                                       [&](const PoseCandidate& a, const PoseCandidate& b) {
+                                         return with_front(a) < with_front(b);
+                                       });
   // What lost by its shape was given up half-way.
   if (chosen != poses.begin()) move_limbs(*chosen);
-  for (PoseCandidate& pose : poses) pose.cost = with_face(pose);
+  for (PoseCandidate& pose : poses) pose.cost = with_front(pose);
   sort_by_cost(poses);
 }
 
@@ -261,7 +262,7 @@ std::vector<PoseCandidate> PoseSearch::run() {
   for (int i = 0; i < moved_count; ++i) move(poses[i]);
   poses.insert(poses.end(), rejected_.begin(), rejected_.end());
   sort_by_cost(poses);
-  choose_by_face(poses);
+  choose_by_front(poses);
   return poses;
 }
 

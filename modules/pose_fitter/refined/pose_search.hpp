@@ -18,8 +18,8 @@ class PoseSearch {
  public:
   PoseSearch(const Observation& observation, const RefinedParams& params);
 
-  /// Candidates that were refined on all points, best first, with what the face adds to their cost;
-  /// never empty.
+  /// Candidates that were refined on all points, best first, with what `front_cost` adds to their
+  /// cost; never empty.
   std::vector<PoseCandidate> run();
   Solver& solver() { return solver_; }
   /// Other arms of a side, everything else staying; cost: what they add to the present arm's.
@@ -32,7 +32,7 @@ class PoseSearch {
   PoseCandidate with_arms(const BodyState& start);
   void move(PoseCandidate& pose);
   void move_limbs(PoseCandidate& pose);
-  void choose_by_face(std::vector<PoseCandidate>& poses);
+  void choose_by_front(std::vector<PoseCandidate>& poses);
   bool try_flip(PoseCandidate& pose);
   bool accept_flipped(PoseCandidate flipped, PoseCandidate& pose);
   bool try_flip_with_other_arms(PoseCandidate& pose);

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+
+#include "modules/pose_fitter/refined/cost.hpp"
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+/// Beyond this cosine between the trunk's front and a direction it counts as turned there, between
+/// the two the odds count in part: at trunks turned by 60 degrees faces get rare.
+constexpr Real kTurnedCosine = 0.5;
+
+/// Unit vectors across gravity, as the sensor looks at the person.
+struct View {
+  Vec3 away, right;
+};
+
+View view_of(const Observation& observation) {
+  const Vec3& up = observation.up;
+  const Vec3& ray = observation.head_start;
+  const Vec3 away = (ray - up * up.dot(ray)).normalized();
+  return {away, away.cross(up)};
+}
+
+/// What odds against a direction cost: nothing where they agree.
+Real disagreement(Real log_odds, Real cosine) {
+  const Real agreement = std::clamp(cosine / kTurnedCosine, -1.0, 1.0);
+  return 0.5 * (std::abs(log_odds) - log_odds * agreement);
+}
+
+Real face_disagreement(const Vec3& front, const View& view, const FaceEvidence& face) {
+  // That none was seen tells little, as hair, masks, hats and hands hide faces: counted too, it
+  // mended no body and cost a right direction (tests/accuracy).
+  const Real facing_log_odds = std::max(0.0F, face.facing_log_odds);
+  return disagreement(facing_log_odds, -front.dot(view.away)) +
+         disagreement(face.looks_right_log_odds, front.dot(view.right));
+}
+
+/// From right to left of the shoulders and hips [m]: across the ray by their marks, along it by the
+/// network's own depths. Zero where none is told.
+Vec3 leftwards_in_image(const Observation& observation, const View& view) {
+  Vec3 leftwards = Vec3::Zero();
+  for (const int pair : {static_cast<int>(kShoulder), static_cast<int>(kHip)}) {
+    const SeenJoint& left = observation.seen_joints[pair];
+    const SeenJoint& right = observation.seen_joints[pair + 1];
+    if (left.visibility <= 0.0 || right.visibility <= 0.0) continue;
+    const Real distance_m = observation.head_start.norm();
+    leftwards += distance_m * view.right.dot(left.ray - right.ray) * view.right +
+                 (left.behind_hips_m - right.behind_hips_m) * view.away;
+  }
+  return leftwards;
+}
+
+Real image_disagreement(const Vec3& front, const View& view, const Observation& observation,
+                        Real side_log_odds) {
+  const Vec3 leftwards = leftwards_in_image(observation, view);
+  if (leftwards.isZero()) return 0.0;
+  const Vec3 told = leftwards.cross(observation.up).normalized();
+  // Of a trunk seen from the front or from behind the marks alone tell the sides: the image term.
+  const Real sideways = told.dot(view.right);
+  return disagreement(side_log_odds * sideways * sideways, front.dot(told));
+}
+
+}  // namespace
+
+Real front_cost(const BodyState& body, const Observation& observation,
+                const RefinedParams& params) {
+  const View view = view_of(observation);
+  const Vec3 front = body.front();
+  return params.front_cost_per_log_odds *
+         (face_disagreement(front, view, observation.face) +
+          image_disagreement(front, view, observation, params.image_side_log_odds));
+}
+
+}  // namespace limbcast::pose_fitter::refined
