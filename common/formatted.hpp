@@ -20,4 +20,9 @@ namespace limbcast {
   return text;
 }
 
+/// "640x480".
+inline std::string size_text(long width, long height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
 }  // namespace limbcast

@@ -33,8 +33,8 @@ std::optional<FramePair> SideBySideSource::next() {
   if (frames.empty()) return std::nullopt;
   replaced_ += static_cast<std::int64_t>(frames.size()) - 1;
   const CapturedFrame& newest = frames.back();
-  auto [first, second] = split_side_by_side(newest.pixels, name_);
-  return make_frame(format_, {newest.utime, first, second}, sequence_++, name_);
+  auto [first, second] = split_side_by_side(plain_pixels(newest.picture, name_), name_);
+  return make_frame(format_, {newest.utime, {first}, {second}}, sequence_++, name_);
 }
 
 std::optional<SourceStatistics> SideBySideSource::statistics() const {

@@ -30,22 +30,35 @@ OpenReader opener(const std::string& source, const CameraSettings& settings) {
   return [source, settings] { return open_camera(source, settings); };
 }
 
+/// Asks a camera for the size that the calibration is for.
+CameraSettings calibrated(CameraSettings settings, int width, int height) {
+  settings.calibrated_width = width;
+  settings.calibrated_height = height;
+  return settings;
+}
+
 std::unique_ptr<PairSource> open_cameras(const SourceOptions& options, const PairFormat& format) {
   if (options.second_source.empty()) {
     if (format.second_is_depth) {
       throw InputError(options.source +
                        ": is one camera; give the depth camera with --source-depth");
     }
-    return std::make_unique<SideBySideSource>(opener(options.source, options.camera),
-                                              capture_params(options, options.source), format);
+    return std::make_unique<SideBySideSource>(
+        opener(options.source, calibrated(options.camera, 2 * format.width, format.height)),
+        capture_params(options, options.source), format);
   }
-  CameraSettings second_settings = options.camera;
+  const bool own_size = format.second_width > 0;
+  CameraSettings second_settings =
+      calibrated(options.camera, own_size ? format.second_width : format.width,
+                 own_size ? format.second_height : format.height);
   second_settings.raw_depth = format.second_is_depth;
-  return std::make_unique<TwoCameraSource>(opener(options.source, options.camera),
-                                           capture_params(options, options.source),
-                                           opener(options.second_source, second_settings),
-                                           capture_params(options, options.second_source), format,
-                                           std::llround(1000.0 * options.pair_tolerance_ms));
+  // Depth has formats of its own.
+  if (format.second_is_depth) second_settings.format.clear();
+  return std::make_unique<TwoCameraSource>(
+      opener(options.source, calibrated(options.camera, format.width, format.height)),
+      capture_params(options, options.source), opener(options.second_source, second_settings),
+      capture_params(options, options.second_source), format,
+      std::llround(1000.0 * options.pair_tolerance_ms));
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ std::optional<CapturedPair> PairMatcher::take() {
       drop_front(behind);
       continue;
     }
-    CapturedPair pair{firsts_.front().utime + difference_us / 2, std::move(firsts_.front().pixels),
-                      std::move(seconds_.front().pixels)};
+    CapturedPair pair{firsts_.front().utime + difference_us / 2, std::move(firsts_.front().picture),
+                      std::move(seconds_.front().picture)};
     firsts_.pop_front();
     seconds_.pop_front();
     return pair;

@@ -2,20 +2,21 @@
 
 #include <cstdint>
 #include <deque>
-#include <opencv2/core/mat.hpp>
 #include <optional>
+
+#include "common/sources/picture.hpp"
 
 namespace limbcast {
 
 /// A picture and when it was taken.
 struct CapturedFrame {
   std::int64_t utime = 0;  ///< [us since the Unix epoch]
-  cv::Mat pixels;
+  Picture picture;
 };
 
 struct CapturedPair {
   std::int64_t utime = 0;  ///< middle of the two
-  cv::Mat first, second;
+  Picture first, second;
 };
 
 /// Brings frames of two cameras together that were taken at the same time.

@@ -1,13 +1,10 @@
 #include "common/sources/pair_source.hpp"
 
+#include "common/formatted.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast {
 namespace {
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
 
 /// A width and height of 0 stand for any size.
 void check_size(int width, int height, const EncodedImage& image, const std::string& name,

@@ -80,11 +80,14 @@ void declare_playback(config::Section& section, SourceProcessOptions& options) {
 
 void declare_cameras(config::Section& section, SourceOptions& options) {
   section.add("camera-width", options.camera.width, "px",
-              "ask the camera for this size, 0 = its own", {0, 16384});
+              "ask the camera for this size, 0 = the calibration's", {0, 16384});
   section.add("camera-height", options.camera.height, "px",
-              "ask the camera for this size, 0 = its own", {0, 16384});
+              "ask the camera for this size, 0 = the calibration's", {0, 16384});
   section.add("camera-rate", options.camera.rate_hz, "frames/s",
-              "ask the camera for this rate, 0 = its own", {0.0, 1000.0});
+              "ask the camera for this rate, 0 = 30 or the nearest that it has", {0.0, 1000.0});
+  section.add(
+      "camera-format", options.camera.format,
+      "ask the camera for this format, e.g. MJPG; empty: the fastest, at best without loss");
   section.add("exposure", options.camera.exposure, "driver's unit, UVC: 100 us",
               "fixed exposure; nan = as the camera has it");
   section.add("gain", options.camera.gain, "driver's unit",

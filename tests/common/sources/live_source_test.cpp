@@ -134,6 +134,28 @@ TEST(SideBySideSourceTest, SplitsThePicture) {
   EXPECT_NEAR(level_of(frame->second), 200, 1);
 }
 
+/// A picture that the camera coded itself.
+CapturedFrame coded_frame_at(std::int64_t utime, const cv::Mat& pixels) {
+  CapturedFrame frame{utime, {}};
+  frame.picture.jpeg = encode_jpeg(pixels, 90);
+  return frame;
+}
+
+TEST(SideBySideSourceTest, SplitsAJpegOfTheCamera) {
+  PlayedCamera camera;
+  cv::Mat both(48, 128, CV_8UC3, cv::Scalar::all(200));
+  both.colRange(0, 64).setTo(cv::Scalar::all(50));
+  camera.push(coded_frame_at(123, both));
+  camera.end();
+  SideBySideSource source(camera.opener(), params_of("cam", false), stereo_format());
+
+  const auto frame = wait_for_frame(source);
+
+  ASSERT_TRUE(frame);
+  EXPECT_NEAR(level_of(frame->first), 50, 1);
+  EXPECT_NEAR(level_of(frame->second), 200, 1);
+}
+
 TEST(SideBySideSourceTest, RefusesPicturesOfTheWrongSize) {
   PlayedCamera camera;
   camera.push({1, grey_picture(100, 48, 1)});
@@ -171,6 +193,20 @@ TEST_F(TwoCameras, ArePairedByTime) {
   EXPECT_EQ(frame->stamp.utime, 12'000);
   EXPECT_NEAR(level_of(frame->first), 50, 1);
   EXPECT_NEAR(level_of(frame->second), 200, 1);
+}
+
+TEST_F(TwoCameras, HaveTheirJpegsSentByteByByte) {
+  const CapturedFrame left = coded_frame_at(0, grey_picture(64, 48, 50));
+  const CapturedFrame right = coded_frame_at(0, grey_picture(64, 48, 200));
+  left_.push(left);
+  right_.push(right);
+  TwoCameraSource source = open();
+
+  const auto frame = wait_for_frame(source);
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->first.bytes, left.picture.jpeg->bytes);
+  EXPECT_EQ(frame->second.bytes, right.picture.jpeg->bytes);
 }
 
 TEST_F(TwoCameras, HaveFramesWithoutPartnerCounted) {
