@@ -129,6 +129,11 @@ void Module::report_problem(const std::string& text) {
   last_logged_problem_ = text;
 }
 
+void Module::end_problem(const std::string& text) {
+  config::log(config::LogLevel::kInfo, "over: " + text);
+  last_logged_problem_.clear();
+}
+
 void Module::on_malformed(const std::string& channel, const std::string& reason) {
   const std::string text = channel + ": message dropped: " + reason;
   counter_.malformed(text);

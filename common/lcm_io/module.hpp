@@ -88,6 +88,8 @@ class Module {
   void set_note(const std::string& note) { note_ = note; }
   /// A problem that the module survives: logged when it is new, and shown in the status.
   void report_problem(const std::string& text);
+  /// The problem of this text is over: logged, as it is when it comes again.
+  void end_problem(const std::string& text);
 
  private:
   void guarded(const std::string& channel, const std::function<void()>& body);

@@ -11,7 +11,6 @@ struct SourceStatistics {
   std::int64_t dropped = 0;   ///< live frames that a newer one replaced before they were taken
   std::int64_t unpaired = 0;  ///< live frames of one camera without a partner in time
   std::int64_t reopened = 0;  ///< times that a camera was opened again
-  std::string problem;        ///< what is wrong now, empty = nothing
 };
 
 /// Where frames come from: a recording, a video, a sensor. Frame has a `stamp` and the `truth` of a
@@ -32,6 +31,8 @@ class FrameSource {
   virtual bool live() const = 0;
   /// Nothing where there is nothing to count.
   virtual std::optional<SourceStatistics> statistics() const { return std::nullopt; }
+  /// What is wrong now with a live source; empty: nothing.
+  virtual std::string problem() const { return ""; }
   /// For the log at start: what it is, how many frames.
   virtual std::string description() const = 0;
 };

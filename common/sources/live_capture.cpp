@@ -57,7 +57,8 @@ std::unique_ptr<FrameReader> LiveCapture::Shared::try_open() {
   }
   const std::lock_guard lock(mutex);
   if (!opened) first_open_error = error;
-  statistics.problem = problem;
+  // A camera that opens again may still give nothing: only a frame ends the problem.
+  if (!reader) statistics.problem = problem;
   if (opened && reader) ++statistics.reopened;
   opened = true;
   last_frame_at = Clock::now();
@@ -69,6 +70,7 @@ void LiveCapture::Shared::hold(CapturedFrame frame) {
   const std::lock_guard lock(mutex);
   frames.push_back(std::move(frame));
   ++statistics.captured;
+  statistics.problem.clear();
   if (frames.size() > params.held_frames) {
     frames.pop_front();
     ++statistics.dropped;

@@ -39,8 +39,10 @@ std::optional<FramePair> SideBySideSource::next() {
 
 std::optional<SourceStatistics> SideBySideSource::statistics() const {
   const CaptureStatistics capture = capture_.statistics();
-  return SourceStatistics{capture.dropped + replaced_, 0, capture.reopened, capture.problem};
+  return SourceStatistics{capture.dropped + replaced_, 0, capture.reopened};
 }
+
+std::string SideBySideSource::problem() const { return capture_.statistics().problem; }
 
 TwoCameraSource::TwoCameraSource(OpenReader open_first, const LiveCaptureParams& first_params,
                                  OpenReader open_second, const LiveCaptureParams& second_params,
@@ -67,8 +69,12 @@ std::optional<SourceStatistics> TwoCameraSource::statistics() const {
   const CaptureStatistics first = first_.statistics();
   const CaptureStatistics second = second_.statistics();
   return SourceStatistics{first.dropped + second.dropped + replaced_, matcher_.unpaired(),
-                          first.reopened + second.reopened,
-                          first.problem.empty() ? second.problem : first.problem};
+                          first.reopened + second.reopened};
+}
+
+std::string TwoCameraSource::problem() const {
+  const std::string first = first_.statistics().problem;
+  return first.empty() ? second_.statistics().problem : first;
 }
 
 }  // namespace limbcast

@@ -14,6 +14,7 @@ class SideBySideSource : public PairSource {
   bool ended() const override { return capture_.ended(); }
   bool live() const override { return true; }
   std::optional<SourceStatistics> statistics() const override;
+  std::string problem() const override;
   std::string description() const override { return name_ + " (live, side by side)"; }
 
  private:
@@ -35,6 +36,7 @@ class TwoCameraSource : public PairSource {
   bool ended() const override { return first_.ended() || second_.ended(); }
   bool live() const override { return true; }
   std::optional<SourceStatistics> statistics() const override;
+  std::string problem() const override;
   std::string description() const override { return names_ + " (live, paired by time)"; }
 
  private:

@@ -51,9 +51,11 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
              double rate_hz) {
   Outlet outlet(module);
   Pacer pacer(rate_hz);
+  ProblemReport problems(module);
   while (!source.ended() && !lcm_io::stop_requested()) {
     std::optional<Frame> frame = source.next();
     show_statistics(source.statistics(), module);
+    problems.tell(source.problem());
     if (frame && !source.live()) {
       wait_until(pacer.due(frame->stamp.utime, Pacer::Clock::now()), module);
     }
@@ -61,6 +63,7 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
     module.spin_once();
   }
   show_statistics(source.statistics(), module);
+  problems.tell(source.problem());
 }
 
 template <class Frame>
@@ -70,8 +73,7 @@ void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std
   while (!source.ended() && !lcm_io::stop_requested()) {
     if (std::optional<Frame> frame = source.next()) sender.send(outlet, std::move(*frame));
   }
-  const std::optional<SourceStatistics> statistics = source.statistics();
-  if (statistics && !statistics->problem.empty()) outlet.report_problem(statistics->problem);
+  if (!source.problem().empty()) outlet.report_problem(source.problem());
   log.close();
 }
 

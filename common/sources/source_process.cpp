@@ -33,7 +33,15 @@ void show_statistics(const std::optional<SourceStatistics>& statistics, lcm_io::
   module.set_note(std::to_string(statistics->dropped) + " dropped, " +
                   std::to_string(statistics->unpaired) + " unpaired, " +
                   std::to_string(statistics->reopened) + " reopened");
-  if (!statistics->problem.empty()) module.report_problem(statistics->problem);
+}
+
+void ProblemReport::tell(const std::string& problem) {
+  if (!problem.empty()) {
+    module_.report_problem(problem);
+  } else if (!last_.empty()) {
+    module_.end_problem(last_);
+  }
+  last_ = problem;
 }
 
 void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
@@ -80,9 +88,9 @@ void declare_playback(config::Section& section, SourceProcessOptions& options) {
 
 void declare_cameras(config::Section& section, SourceOptions& options) {
   section.add("camera-width", options.camera.width, "px",
-              "ask the camera for this size, 0 = the calibration's", {0, 16384});
+              "ask the camera for this size, 0 = the calibration's, else its own", {0, 16384});
   section.add("camera-height", options.camera.height, "px",
-              "ask the camera for this size, 0 = the calibration's", {0, 16384});
+              "ask the camera for this size, 0 = the calibration's, else its own", {0, 16384});
   section.add("camera-rate", options.camera.rate_hz, "frames/s",
               "ask the camera for this rate, 0 = 30 or the nearest that it has", {0.0, 1000.0});
   section.add(

@@ -91,6 +91,18 @@ void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module);
 /// Puts what a source counts, if it counts anything, into the status.
 void show_statistics(const std::optional<SourceStatistics>& statistics, lcm_io::Module& module);
 
+/// Tells what is wrong with a live source, in the status and the log, and when that is over.
+class ProblemReport {
+ public:
+  explicit ProblemReport(lcm_io::Module& module) : module_(module) {}
+  /// `problem`: what is wrong now; empty: nothing.
+  void tell(const std::string& problem);
+
+ private:
+  lcm_io::Module& module_;
+  std::string last_;
+};
+
 /// Sends one frame with what belongs to it.
 using SendFrame = std::function<void(Outlet&, const FramePair&)>;
 

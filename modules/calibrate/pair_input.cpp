@@ -79,7 +79,7 @@ void visit_stream(const SourceOptions& options, const Take& take) {
   while (!source->ended()) {
     check_not_told_to_end();
     const std::optional<FramePair> frame = source->next();
-    if (const auto statistics = source->statistics()) problems.tell(statistics->problem);
+    problems.tell(source->problem());
     if (!frame) continue;
     const std::string name = "frame " + std::to_string(frame->stamp.sequence);
     if (!take({name, decode_grey(frame->first, name), decode_grey(frame->second, name),

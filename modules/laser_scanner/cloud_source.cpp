@@ -1,9 +1,11 @@
 #include "modules/laser_scanner/cloud_source.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include "common/formatted.hpp"
 #include "common/human_model/ground_truth_json.hpp"
 #include "common/input_error.hpp"
 #include "modules/laser_scanner/axes.hpp"
@@ -14,6 +16,7 @@ namespace limbcast::laser_scanner {
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 const std::string kLivePrefix = "velodyne:";
 
@@ -110,6 +113,7 @@ class VelodyneSource : public CloudSource {
   std::optional<CloudFrame> next() override {
     while (const std::optional<Packet> packet = packets_.next()) {
       if (packet->payload.size() != kVelodynePacketBytes) continue;
+      last_packet_at_ = Clock::now();
       if (!decoder_ && !find_model(*packet)) continue;
       if (auto sweep = decoder_->add(packet->payload, packet->utime)) {
         const RawCloud raw{
@@ -128,6 +132,12 @@ class VelodyneSource : public CloudSource {
   }
   bool ended() const override { return ended_; }
   bool live() const override { return is_live_; }
+  std::string problem() const override {
+    const std::chrono::duration<double> silent_for = Clock::now() - last_packet_at_;
+    if (!is_live_ || silent_for.count() < params_.stall_timeout_s) return "";
+    return params_.source + ": no packets for " + formatted("%g", params_.stall_timeout_s) +
+           " s; is the scanner on, and does it send to this host and port?";
+  }
   std::string description() const override {
     return params_.source + (is_live_ ? ": Velodyne, live" : ": Velodyne, recorded");
   }
@@ -152,6 +162,7 @@ class VelodyneSource : public CloudSource {
   bool ended_ = false;
   VelodyneModelFinder model_finder_;
   std::optional<VelodyneDecoder> decoder_;
+  Clock::time_point last_packet_at_ = Clock::now();
   std::int64_t sequence_ = 0;
 };
 

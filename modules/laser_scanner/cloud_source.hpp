@@ -20,10 +20,11 @@ struct CloudFrame {
 using CloudSource = FrameSource<CloudFrame>;
 
 struct CloudSourceParams {
-  std::string source;   ///< folder, cloud file, .pcap, or velodyne:PORT
-  std::string axes;     ///< see Axes; empty: as the kind of source has them
-  double unit_m = 1.0;  ///< metres for one unit of the files
-  std::string model;    ///< of a Velodyne: "vlp16", "hdl32", or "auto", as its packets say
+  std::string source;            ///< folder, cloud file, .pcap, or velodyne:PORT
+  std::string axes;              ///< see Axes; empty: as the kind of source has them
+  double unit_m = 1.0;           ///< metres for one unit of the files
+  std::string model;             ///< of a Velodyne: "vlp16", "hdl32", or "auto", as its packets say
+  double stall_timeout_s = 2.0;  ///< a live scanner that sends nothing for so long has stalled
   double near_limit_m = 0.3, far_limit_m = 30.0;
   RecordingParams recording;
   bool loop = false;

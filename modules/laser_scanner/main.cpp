@@ -32,6 +32,8 @@ void declare(config::Section& section, Options& options) {
   section.add("unit-m", options.source.unit_m, "m", "length of one unit in the files", {1e-6, 1e3});
   section.add_choice("velodyne-model", options.source.model, {"auto", "vlp16", "hdl32"},
                      "auto: as its packets say");
+  section.add("stall-timeout-s", options.source.stall_timeout_s, "s",
+              "without a packet for this long a live Velodyne counts as stalled", {0.1, 3600.0});
   section.add("near-limit-m", options.source.near_limit_m, "m", "leave out nearer points",
               {0.0, 1e3});
   section.add("far-limit-m", options.source.far_limit_m, "m", "leave out farther points",

@@ -118,6 +118,11 @@ std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packe
     ++num_malformed_;
     return std::nullopt;
   }
+  if (started_ && utime - last_utime_ > kLongestGap_us) {
+    sweep_ = {};
+    started_ = false;
+    last_azimuth_deg_ = -1.0;
+  }
   const int step = is_dual(packet) ? 2 : 1;
   std::optional<Sweep> whole;
   double turn_deg = 0.0;

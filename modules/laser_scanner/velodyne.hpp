@@ -13,6 +13,9 @@ namespace limbcast::laser_scanner {
 /// Length of a data packet [bytes]; packets of other lengths (position) are none.
 inline constexpr std::size_t kVelodynePacketBytes = 1206;
 inline constexpr int kVelodynePort = 2368;
+/// Half a turn at the usual 10 turns/s [us]; packets come each 0.6 to 1.3 ms, so that those few
+/// that a network loses do not end a turn.
+inline constexpr std::int64_t kLongestGap_us = 50'000;
 
 enum class VelodyneModel { kVlp16, kHdl32 };
 
@@ -46,8 +49,8 @@ struct Sweep {
 
 /// Puts the packets of a Velodyne together to whole turns (User's Manual VLP-16, 63-9243, chapter
 /// 9; HDL-32E, 63-9113, appendix): 12 blocks of 32 returns each, in units of 2 mm and 0.01 degrees.
-/// A turn is cut behind the scanner, so that nobody in front is; the first, incomplete one is left
-/// out.
+/// A turn is cut behind the scanner, so that nobody in front is. The first, incomplete one is left
+/// out, and so is one during which no packet came for kLongestGap_us: people have moved meanwhile.
 class VelodyneDecoder {
  public:
   explicit VelodyneDecoder(VelodyneModel model) : model_(model) {}

@@ -46,6 +46,31 @@ TEST(Velodyne, CutsTurnsBehindItself) {
   EXPECT_NEAR(static_cast<double>(sweeps[1].utime - sweeps[0].utime), 75'000.0, 1'000.0);
 }
 
+/// Turns of a scanner whose packets stop for so long, in the middle of the second whole turn.
+std::vector<Sweep> sweeps_around_a_pause(std::int64_t pause_us) {
+  VelodyneDecoder decoder(VelodyneModel::kVlp16);
+  std::vector<Sweep> sweeps;
+  const auto packets = vlp16_turns(5, 4.0);
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    const std::int64_t utime = 1000 * static_cast<std::int64_t>(i) + (i < 130 ? 0 : pause_us);
+    if (auto sweep = decoder.add(packets[i], utime)) sweeps.push_back(std::move(*sweep));
+  }
+  return sweeps;
+}
+
+TEST(Velodyne, LeavesOutTheTurnDuringWhichItWasUnplugged) {
+  const std::vector<Sweep> sweeps = sweeps_around_a_pause(4'000'000);
+  ASSERT_EQ(sweeps.size(), 3U);
+  for (const Sweep& sweep : sweeps) EXPECT_EQ(sweep.points_m.size(), kReturnsOfATurn);
+  // One turn before and two after it, of which none is an average of both times.
+  EXPECT_NEAR(static_cast<double>(sweeps[0].utime), 75'000.0, 1'000.0);
+  EXPECT_NEAR(static_cast<double>(sweeps[1].utime), 4'225'000.0, 1'000.0);
+}
+
+TEST(Velodyne, KeepsATurnThatANetworkDelays) {
+  EXPECT_EQ(sweeps_around_a_pause(10'000).size(), 4U);
+}
+
 TEST(Velodyne, PlacesReturnsByAzimuthElevationAndDistance) {
   VelodyneDecoder decoder(VelodyneModel::kVlp16);
   const auto sweeps = sweeps_of(vlp16_turns(2, 4.0));
@@ -246,6 +271,14 @@ TEST_F(Recorded, LiveScannerIsHeardOnItsPort) {
   EXPECT_EQ(frame->cloud.points.size(), kReturnsOfATurn);
   EXPECT_FALSE(source->next());
   EXPECT_FALSE(source->ended());
+}
+
+TEST_F(Recorded, LiveScannerThatSendsNothingIsTold) {
+  CloudSourceParams live = params("velodyne:" + std::to_string(20000 + getpid() % 40000));
+  EXPECT_EQ(open_cloud_source(live)->problem(), "");
+  live.stall_timeout_s = 0.0;
+  EXPECT_THAT(open_cloud_source(live)->problem(),
+              HasSubstr(": no packets for 0 s; is the scanner on"));
 }
 
 TEST_F(Recorded, ScansOfTheDataAreRead) {

@@ -318,6 +318,7 @@ TEST_F(CameraThatIsUnplugged, IsOpenedAgainWhenItComesBack) {
   EXPECT_THAT(status_->note, HasSubstr("1 reopened"));
   EXPECT_GT(images_.back().stamp.sequence, images_.front().stamp.sequence);
   EXPECT_EQ(stop(), 0) << camera_->output();
+  EXPECT_THAT(camera_->output(), HasSubstr("over: "));
 }
 
 /// Two cameras, each a pipeline that plays the pictures of one side round and round.

@@ -112,6 +112,17 @@ TEST(LiveCaptureTest, LeavesACameraBehindThatHangs) {
               HasSubstr("cam: did not open in time"));
 }
 
+TEST(LiveCaptureTest, HasItsProblemUntilAFrameComesAgain) {
+  PlayedCamera camera;
+  camera.end();
+  LiveCapture capture(camera.opener(), params_of("cam", true));
+  while (capture.statistics().reopened < 1) std::this_thread::yield();
+  EXPECT_THAT(capture.statistics().problem, HasSubstr("cam: gives no frames any more"));
+  camera.push(frame_at(1));
+  ASSERT_EQ(capture.take(kForEver).size(), 1U);
+  EXPECT_EQ(capture.statistics().problem, "");
+}
+
 std::optional<FramePair> wait_for_frame(PairSource& source) {
   std::optional<FramePair> frame;
   while (!frame && !source.ended()) frame = source.next();
@@ -230,7 +241,7 @@ TEST_F(TwoCameras, EndWhereOneEnds) {
   right_.end();
   TwoCameraSource source = open();
   EXPECT_FALSE(wait_for_frame(source));
-  EXPECT_THAT(source.statistics()->problem, HasSubstr("right: gives no frames any more"));
+  EXPECT_THAT(source.problem(), HasSubstr("right: gives no frames any more"));
 }
 
 TEST(Mounting, OfTheOptionWinsOverRecordingOverCalibration) {
