@@ -60,17 +60,19 @@ struct FaceEvidence {
   float looks_right_log_odds = 0.0F;
 };
 
-/// One joint of a person as a network sees it in the colour image.
+/// One joint of a person as a network sees it.
 struct ImageJoint {
   Joint joint = Joint::kHead;
-  Eigen::Vector2f px = Eigen::Vector2f::Zero();  ///< in the cloud's lattice, or beyond its edge
-  float visibility = 0.0F;  ///< 0 to 1, how sure the joint is in sight and there
+  Eigen::Vector2f px =
+      Eigen::Vector2f::Zero();  ///< in the cloud's lattice (a list: in `range_image`), or beyond
+  float visibility = 0.0F;      ///< 0 to 1, how sure the joint is in sight and there
   /// How much farther along the optical axis than the hips' middle; rough: of one wrist
   /// in eight the sign is wrong.
   float behind_hips_m = 0.0F;
 };
 
-/// A person as a network for poses sees it in the colour image.
+/// A person as a network for poses sees it in the colour image, or without colours in a picture of
+/// the surface, whose left and right are a guess.
 struct ImagePose {
   float person_score = 0.0F;       ///< 0 to 1, how sure the network is that somebody is there
   std::vector<ImageJoint> joints;  ///< those that the network knows, each once

@@ -34,6 +34,52 @@ Extent measure(const Lattice& lattice, std::vector<std::uint32_t> points) {
   return extent;
 }
 
+/// The points of each surface that is as large as this.
+std::vector<std::vector<std::uint32_t>> points_of_surfaces(const Surfaces& surfaces,
+                                                           float min_area_m2, float max_area_m2,
+                                                           float max_extent_m) {
+  std::vector<std::vector<std::uint32_t>> points(surfaces.all.size());
+  for (std::uint32_t i = 0; i < surfaces.of_point.size(); ++i) {
+    if (surfaces.of_point[i] >= 0)
+      points[static_cast<std::size_t>(surfaces.of_point[i])].push_back(i);
+  }
+  std::vector<std::vector<std::uint32_t>> kept;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Surface& surface = surfaces.all[k];
+    if (surface.area_m2 >= min_area_m2 && surface.area_m2 <= max_area_m2 &&
+        surface.extent_m <= max_extent_m)
+      kept.push_back(std::move(points[k]));
+  }
+  return kept;
+}
+
+/// The head of a body whose top is in sight, at the surface's point nearest to the top's middle.
+HeadCandidate head_on_top(const Lattice& lattice, const Extent& extent,
+                          const WholeBodyParams& params) {
+  Eigen::Vector3f middle_m = Eigen::Vector3f::Zero();
+  int points = 0;
+  for (const std::uint32_t i : extent.points) {
+    if (lattice.level_m[i].z() < extent.top_m - params.head_height_m) continue;
+    middle_m += lattice.level_m[i];
+    ++points;
+  }
+  middle_m /= static_cast<float>(points);
+  const std::uint32_t at = *std::min_element(
+      extent.points.begin(), extent.points.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return (lattice.level_m[a] - middle_m).squaredNorm() <
+               (lattice.level_m[b] - middle_m).squaredNorm();
+      });
+  HeadCandidate head;
+  head.u = static_cast<int>(at) % lattice.width;
+  head.v = static_cast<int>(at) / lattice.width;
+  head.surface_m = lattice.level_m[at];
+  const Eigen::Vector2f away = head.surface_m.head<2>().normalized();
+  head.center_m = head.surface_m;
+  head.center_m.head<2>() += params.head_depth_m * away;
+  head.kind = SeedKind::kBody;
+  return head;
+}
+
 /// What the sensor does not see: beyond the first and the last measured point of each row, since a
 /// stereo camera measures nothing at the edge that only one of its images shows, and behind people.
 class View {
@@ -142,19 +188,11 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
                                                     const HiddenHeadParams& params) {
   if (!lattice.frame.ground_known) return {};
   const Surfaces surfaces = find_surfaces(lattice, params.surface, &found.labels);
-  std::vector<std::vector<std::uint32_t>> points(surfaces.all.size());
-  for (std::uint32_t i = 0; i < surfaces.of_point.size(); ++i) {
-    if (surfaces.of_point[i] >= 0)
-      points[static_cast<std::size_t>(surfaces.of_point[i])].push_back(i);
-  }
   const View view(lattice, found, params);
   std::vector<HeadlessSurface> headless;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Surface& surface = surfaces.all[k];
-    if (surface.area_m2 < params.min_area_m2 || surface.area_m2 > params.max_area_m2 ||
-        surface.extent_m > params.max_extent_m)
-      continue;
-    const Extent extent = measure(lattice, std::move(points[k]));
+  for (std::vector<std::uint32_t>& points :
+       points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
+    const Extent extent = measure(lattice, std::move(points));
     if (extent.top_m - extent.bottom_m < params.min_height_m ||
         near_a_head(found.heads, extent.mean_m, params.min_distance_m))
       continue;
@@ -172,6 +210,22 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
                      return a.points.size() > b.points.size();
                    });
   return headless;
+}
+
+std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const FoundPeople& found,
+                                               const WholeBodyParams& params) {
+  if (!lattice.frame.ground_known) return {};
+  const Surfaces surfaces = find_surfaces(lattice, params.surface, &found.labels);
+  std::vector<HeadlessSurface> bodies;
+  for (std::vector<std::uint32_t>& points :
+       points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
+    const Extent extent = measure(lattice, std::move(points));
+    if (extent.top_m - extent.bottom_m < params.min_height_m || extent.top_m < params.min_top_m ||
+        extent.top_m > params.max_top_m)
+      continue;
+    bodies.push_back({head_on_top(lattice, extent, params), extent.points});
+  }
+  return bodies;
 }
 
 void add_headless_people(const Lattice& lattice, const SurfaceClassifier& classifier,

@@ -23,6 +23,10 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
                                                     const FoundPeople& found,
                                                     const HiddenHeadParams& params);
 
+/// Surfaces that nobody has and that are as high and wide as a body, with the head on top of them.
+std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const FoundPeople& found,
+                                               const WholeBodyParams& params);
+
 /// Adds those that are a body's to the people who were found, and the others to the rejected.
 void add_headless_people(const Lattice& lattice, const SurfaceClassifier& classifier,
                          const HiddenHeadParams& params, FoundPeople& found);

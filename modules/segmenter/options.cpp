@@ -50,7 +50,8 @@ void declare(config::Section& section, SegmenterOptions& options) {
               "looked for");
   section.add(
       "pose-network", params.pose_network.enabled,
-      "see each person's joints in the colour image, with a network; 40 ms of CPU a person");
+      "see each person's joints with a network, in the colour image or the lit surface; 10 ms of "
+      "CPU a person");
   section.add("range-image-margin-m", params.range_image_margin_m, "m",
               "space kept around a person in the range image", {0.0F, 2.0F});
 }

@@ -183,8 +183,11 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
                                         std::vector<RejectedHead>& rejected,
                                         const HeadOpinion& opinion) {
   const float prior_odds = lattice.wraps_around ? params.panorama_odds : 0.0F;
-  for (HeadCandidate& candidate : candidates)
-    candidate.odds = classifier.head_odds(lattice, candidate) + prior_odds;
+  for (HeadCandidate& candidate : candidates) {
+    // What is known of a body's head comes from the body, not from its shape.
+    if (candidate.kind != SeedKind::kBody)
+      candidate.odds = classifier.head_odds(lattice, candidate) + prior_odds;
+  }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const HeadCandidate& a, const HeadCandidate& b) { return a.odds > b.odds; });
   int asked = 0;

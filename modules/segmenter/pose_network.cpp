@@ -5,7 +5,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/network.hpp"
+#include "modules/segmenter/range_image.hpp"
+#include "modules/segmenter/shaded_surface.hpp"
 #include "modules/segmenter/tflite_network.hpp"
 
 // The file in pose_network_model.S.
@@ -107,6 +110,30 @@ cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
   return image;
 }
 
+/// A camera in the sensor's place whose image is the network's input: `side_m` wide around the
+/// middle of somebody who is not too near.
+std::optional<PinholeCamera> camera_towards(const Eigen::Vector3f& middle_m, float side_m) {
+  if (!(middle_m.z() > 0.0F)) return std::nullopt;
+  constexpr double kMiddle_px = 0.5 * (kInput_px - 1);
+  PinholeCamera camera;
+  camera.width = camera.height = kInput_px;
+  camera.fx = camera.fy = kInput_px * middle_m.z() / side_m;
+  camera.cx = kMiddle_px - camera.fx * middle_m.x() / middle_m.z();
+  camera.cy = kMiddle_px - camera.fy * middle_m.y() / middle_m.z();
+  return camera;
+}
+
+/// The person's points, and those that may be the person's, in a picture's frame.
+std::vector<Eigen::Vector3f> points_of(const Cloud& cloud, const LabelledPerson& person,
+                                       const Eigen::Matrix3f& frame_from_picture) {
+  std::vector<Eigen::Vector3f> points_m;
+  for (std::size_t i = 0; i < person.labels.size(); ++i) {
+    if (person.labels[i] == person.label || person.labels[i] == kUnsure)
+      points_m.push_back(frame_from_picture.transpose() * cloud.points_m[i]);
+  }
+  return points_m;
+}
+
 }  // namespace
 
 /// The network of one thread: XNNPACK's keeps what it works on.
@@ -153,6 +180,33 @@ std::optional<ImagePose> PoseNetwork::look(const Cloud& cloud, const LabelledPer
   return networks_->with([&](Network& network) {
     return to_pose(network.run(input), image_from_patch(*square, kInput_px));
   });
+}
+
+std::optional<ImagePose> PoseNetwork::look_at_surface(const Cloud& cloud,
+                                                      const LabelledPerson& person,
+                                                      const Eigen::Vector3f& down,
+                                                      const RangeImage& view) const {
+  if (!networks_) return std::nullopt;
+  const Eigen::Vector3f middle_m = person.head_m + params_.middle_below_head_m * down;
+  const Eigen::Matrix3f frame_from_picture = upright_view(middle_m, down);
+  const std::optional<PinholeCamera> camera =
+      camera_towards(frame_from_picture.transpose() * middle_m, params_.side_m);
+  if (!camera) return std::nullopt;
+  const cv::Mat3b picture =
+      draw_shaded(points_of(cloud, person, frame_from_picture), *camera, params_.surface);
+  ImagePose pose = networks_->with(
+      [&](Network& network) { return to_pose(network.run(picture), Eigen::Affine2f::Identity()); });
+  const Eigen::Matrix3f view_from_picture = view.frame_from_image.transpose() * frame_from_picture;
+  const Eigen::Vector2f origin_px(static_cast<float>(view.origin_u),
+                                  static_cast<float>(view.origin_v));
+  for (ImageJoint& joint : pose.joints) {
+    const Eigen::Vector3f ray =
+        view_from_picture * camera->back_project(joint.px.x(), joint.px.y(), 1.0F);
+    // Beside the camera there is no pixel.
+    if (!(ray.z() > 0.0F)) return std::nullopt;
+    joint.px = origin_px + view.camera.project(ray);
+  }
+  return pose;
 }
 
 std::optional<UprightSquare> PoseNetwork::square_around(const PinholeCamera& camera,

@@ -22,7 +22,7 @@ struct LabelledPerson {
   Eigen::Vector3f head_m;                   ///< centre of the head, in the cloud's frame
 };
 
-/// Sees a person's joints in the colour image with BlazePose (V. Bazarevsky et al., "BlazePose:
+/// Sees a person's joints with BlazePose (V. Bazarevsky et al., "BlazePose:
 /// On-device Real-time Body Pose tracking", CVPR workshop 2020; models/README.md). Several threads
 /// may use one object.
 class PoseNetwork {
@@ -30,10 +30,18 @@ class PoseNetwork {
   explicit PoseNetwork(const PoseNetworkParams& params);
   ~PoseNetwork();
 
-  /// `down` is gravity's direction in the cloud's frame. Other people are painted over, since the
-  /// network tells of one. Nothing without colour and camera, and of a person too small to see.
+  /// In the colour image. `down` is gravity's direction in the cloud's frame. Other people are
+  /// painted over, since the network tells of one. Nothing without colour and camera, and of a
+  /// person too small to see.
   std::optional<ImagePose> look(const Cloud& cloud, const LabelledPerson& person,
                                 const Eigen::Vector3f& down) const;
+
+  /// In a picture of the person's surface (shaded_surface.hpp), for clouds without colour or
+  /// camera. The joints' pixels are those of the image that `view` is a part of. The network takes
+  /// front for back as often as not, since nothing has a face.
+  std::optional<ImagePose> look_at_surface(const Cloud& cloud, const LabelledPerson& person,
+                                           const Eigen::Vector3f& down,
+                                           const RangeImage& view) const;
 
  private:
   class Network;

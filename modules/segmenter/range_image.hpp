@@ -20,6 +20,10 @@ struct RangeImageSource {
 
 bool is_skin_colored(const RangeImageSource& source, std::size_t point);
 
+/// Axes of an upright view towards `middle_m`, as columns: right, down, away. `down` points to its
+/// bottom.
+Eigen::Matrix3f upright_view(const Eigen::Vector3f& middle_m, const Eigen::Vector3f& down);
+
 /// Fills points_m, is_skin and range_image of `segment` from an organised cloud: the pixels that
 /// carry `label` and what the sensor saw around them.
 void fill_from_camera(const RangeImageSource& source, std::int16_t label, Segment& segment);

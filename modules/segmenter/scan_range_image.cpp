@@ -13,16 +13,6 @@ namespace {
 /// Widest angle from the middle of the view [tangent]; 63 degrees, so that a person 1 m away fits.
 constexpr float kMaxTangent = 2.0F;
 
-/// Axes of an upright view towards `middle_m`, as columns.
-Eigen::Matrix3f upright_view(const Eigen::Vector3f& middle_m, const Eigen::Vector3f& down) {
-  const Eigen::Vector3f forward = (middle_m - down * down.dot(middle_m)).normalized();
-  Eigen::Matrix3f frame_from_image;
-  frame_from_image.col(0) = down.cross(forward);
-  frame_from_image.col(1) = down;
-  frame_from_image.col(2) = forward;
-  return frame_from_image;
-}
-
 /// Bounds of a person's points in the view [tangents].
 struct Bounds {
   Eigen::Array2f low = Eigen::Array2f::Constant(1e9F), high = Eigen::Array2f::Constant(-1e9F);
@@ -95,6 +85,15 @@ void fill_gaps(int gap_px, RangeImage& image, std::vector<int>& point_of) {
 }
 
 }  // namespace
+
+Eigen::Matrix3f upright_view(const Eigen::Vector3f& middle_m, const Eigen::Vector3f& down) {
+  const Eigen::Vector3f forward = (middle_m - down * down.dot(middle_m)).normalized();
+  Eigen::Matrix3f frame_from_image;
+  frame_from_image.col(0) = down.cross(forward);
+  frame_from_image.col(1) = down;
+  frame_from_image.col(2) = forward;
+  return frame_from_image;
+}
 
 void fill_from_scan(const RangeImageSource& source, std::int16_t label, const Eigen::Vector3f& down,
                     float focal_px, int gap_px, Segment& segment) {

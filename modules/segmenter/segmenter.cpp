@@ -64,6 +64,26 @@ Eigen::Vector3f down_of(const LevelFrame& frame) {
   return -frame.level_from_sensor.row(2).transpose();
 }
 
+/// Where the network marks a head whose depth is known, in the camera's optical frame [m].
+Eigen::Vector3f marked_head(const ImagePose& pose, const PinholeCamera& camera, float depth_m) {
+  const auto seen = std::find_if(pose.joints.begin(), pose.joints.end(),
+                                 [](const ImageJoint& j) { return j.joint == Joint::kHead; });
+  return camera.back_project(seen->px.x(), seen->px.y(), depth_m);
+}
+
+/// The camera's own image; of a scan one that shows the place.
+RangeImage view_towards(const Cloud& cloud, const Eigen::Vector3f& place_m,
+                        const Eigen::Vector3f& down) {
+  RangeImage view;
+  if (cloud.organized()) {
+    view.camera = *cloud.camera;
+  } else {
+    view.frame_from_image = upright_view(place_m, down);
+    view.camera.fx = view.camera.fy = 1.0;
+  }
+  return view;
+}
+
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
@@ -152,9 +172,16 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
                                                   const std::vector<HeadCandidate>& seeds,
                                                   Segments& result) const {
   const LevelFrame& frame = scene.lattice.frame;
-  FoundPeople people =
-      find_people(scene.lattice, seeds, classifier_, bodies_, params_,
-                  [&](const HeadCandidate& head) { return image_head_odds(scene, head); });
+  const HeadOpinion opinion = [&](const HeadCandidate& head) {
+    return image_head_odds(scene, head);
+  };
+  FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_, opinion);
+  const std::vector<HeadCandidate> whole = find_whole_people(scene, people);
+  if (!whole.empty()) {
+    std::vector<HeadCandidate> all = seeds;
+    all.insert(all.end(), whole.begin(), whole.end());
+    people = find_people(scene.lattice, std::move(all), classifier_, bodies_, params_, opinion);
+  }
   if (scene.cloud.organized())
     add_headless_people(scene.lattice, surfaces_, params_.hidden_heads, people);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
@@ -173,16 +200,44 @@ std::optional<float> Segmenter::image_head_odds(const Scene& scene,
   const std::vector<std::int16_t> nobodys(scene.cloud.points_m.size(), kNobody);
   const auto pose = pose_network_.look(scene.cloud, {nobodys, kNobody, head_m}, down_of(frame));
   if (!pose) return std::nullopt;
-  const auto seen = std::find_if(pose->joints.begin(), pose->joints.end(),
-                                 [](const ImageJoint& j) { return j.joint == Joint::kHead; });
-  const PinholeCamera& camera = *scene.cloud.camera;
-  const float distance_m =
-      (seen->px - camera.project(head_m)).norm() * head_m.z() / static_cast<float>(camera.fx);
+  const float distance_m = (marked_head(*pose, *scene.cloud.camera, head_m.z()) - head_m).norm();
   const PoseNetworkParams& params = params_.pose_network;
   return params.base_odds + params.depth_odds * head.odds +
          params.score_odds * std::clamp(log_odds(pose->person_score), -params.max_score_odds,
                                         params.max_score_odds) +
          params.distance_odds_per_m * std::min(distance_m, params.max_distance_m);
+}
+
+std::vector<HeadCandidate> Segmenter::find_whole_people(const Scene& scene,
+                                                        const FoundPeople& found) const {
+  std::vector<HeadCandidate> people;
+  const Eigen::Vector3f down = down_of(scene.lattice.frame);
+  for (auto& [head, points] : find_whole_bodies(scene.lattice, found, params_.whole_bodies)) {
+    // Depths alone tell most furniture before a camera, in less time than the network.
+    if (scene.cloud.organized() &&
+        surfaces_.mean_odds(scene.lattice, points) < params_.whole_bodies.min_body_odds)
+      continue;
+    constexpr std::int16_t kThis = 0;
+    std::vector<std::int16_t> labels(scene.lattice.size(), kNobody);
+    for (const std::uint32_t i : points) labels[i] = kThis;
+    labels = labels_of_cloud(scene, labels);
+    const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(head.center_m);
+    const RangeImage view = view_towards(scene.cloud, head_m, down);
+    const auto pose = see(scene.cloud, {labels, kThis, head_m}, down, view);
+    if (!pose) continue;
+    const float depth_m = view.frame_from_image.col(2).dot(head_m);
+    const Eigen::Vector3f marked_m =
+        view.frame_from_image * marked_head(*pose, view.camera, depth_m);
+    if (pose->person_score < params_.whole_bodies.min_score ||
+        (marked_m - head_m).norm() > params_.whole_bodies.max_head_distance_m)
+      continue;
+    // The top may be hidden; the network sees where the head is all the same.
+    head.center_m = scene.lattice.frame.to_level(marked_m);
+    head.surface_m = head_surface(scene.lattice, head.center_m);
+    head.odds = params_.whole_bodies.head_odds;
+    people.push_back(head);
+  }
+  return people;
 }
 
 std::vector<std::int16_t> Segmenter::labels_of_cloud(
@@ -230,13 +285,21 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
     // A head that is out of sight shows no face: that tells nothing.
     if (segment.seed_kind != SeedKind::kBody)
       segment.face = faces_.look(scene.cloud, head_m, scene.lattice.up);
-    segment.image_pose = pose_network_.look(scene.cloud, {labels, label, head_m}, down);
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);
     else
       fill_from_scan(source, label, down, params_.scan_range_image.focal_px,
                      params_.scan_range_image.gap_px, segment);
+    if (segment.range_image)
+      segment.image_pose = see(scene.cloud, {labels, label, head_m}, down, *segment.range_image);
   }
+}
+
+std::optional<ImagePose> Segmenter::see(const Cloud& cloud, const LabelledPerson& person,
+                                        const Eigen::Vector3f& down, const RangeImage& view) const {
+  return cloud.organized() && !cloud.colors.empty()
+             ? pose_network_.look(cloud, person, down)
+             : pose_network_.look_at_surface(cloud, person, down, view);
 }
 
 Segments segment(const Cloud& cloud, const Params& params) {

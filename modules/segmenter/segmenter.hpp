@@ -11,6 +11,7 @@
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
+#include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/pose_network.hpp"
 #include "modules/segmenter/skin_color.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
@@ -53,8 +54,14 @@ class Segmenter {
                                           Segments& result) const;
   /// Log odds of a head, by the depths around it and by what the colour image shows beneath it.
   std::optional<float> image_head_odds(const Scene& scene, const HeadCandidate& head) const;
+  /// Heads of bodies that nobody has and that the network of poses takes for people.
+  std::vector<HeadCandidate> find_whole_people(const Scene& scene, const FoundPeople& found) const;
   std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
                                             const std::vector<std::int16_t>& labels) const;
+  /// What the network of poses sees of a person: in the colours, or where there are none in the
+  /// surface, then in the pixels of `view`.
+  std::optional<ImagePose> see(const Cloud& cloud, const LabelledPerson& person,
+                               const Eigen::Vector3f& down, const RangeImage& view) const;
   void fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
                      Segments& result) const;
 

@@ -129,9 +129,15 @@ TEST(RefinedFitter, TurnsABodyToTheSensorWhereAFaceIsSeen) {
   EXPECT_GT(left_m(), 0.2F);
 }
 
+/// The same, seen by a camera with colours: none of it is skin.
+Segment colored(Segment segment) {
+  segment.range_image->is_skin.assign(segment.range_image->depth_m.size(), 0);
+  return segment;
+}
+
 TEST(RefinedFitter, TurnsABodyToTheSideThatTheImageShows) {
   const auto left_behind_m = [](double image_yaw_deg) {
-    Segment segment = testing::seen(testing::standing_body(2.5, 90.0 * kDegree));
+    Segment segment = colored(testing::seen(testing::standing_body(2.5, 90.0 * kDegree)));
     segment.image_pose = in_image(testing::standing_body(2.5, image_yaw_deg * kDegree));
     RefinedParams params;
     // Surer than any network, so that it is told what the image shows, however well the shape fits.
@@ -258,11 +264,19 @@ TEST(RefinedCost, MindsATrunkTurnedAgainstTheFace) {
   EXPECT_NEAR(cost_at(-90.0), 6.0, 1e-6);
 }
 
+TEST(RefinedCost, MindsNoTrunkWhoseSurfaceAloneWasLookedAt) {
+  const RefinedParams params;
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.image_pose = in_image(testing::standing_body(2.5, 90.0 * kDegree));
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);
+}
+
 TEST(RefinedCost, MindsATrunkTurnedAgainstTheImage) {
   const RefinedParams params;
   const double most = params.front_cost_per_log_odds * params.image_side_log_odds;
   const auto cost_at = [&](double yaw_deg, double image_yaw_deg) {
-    Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+    Segment segment = colored(testing::seen(testing::standing_body(2.5, 0.0)));
     segment.image_pose = in_image(testing::standing_body(2.5, image_yaw_deg * kDegree));
     const auto observation = refined::observe(segment, testing::stamp(), params);
     return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);

@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   2580 simulated frames, 1.1 GB, about half an hour on one core; sets that are there stay
+#   SIMULATED_DIR   3400 simulated frames, 1.4 GB, about half an hour on one core; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -20,6 +20,11 @@ simulate c_general general stereo 80 703 --child-share 0.1
 simulate c_multi multi stereo 60 704 --child-share 0.1
 simulate c_depth_pointing pointing depth 60 705 --color
 simulate c_depth_nohuman nohuman depth 60 706 --color
+# Without colours the network of poses looks at surfaces.
+dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
+simulate c_dense_pointing pointing laser 120 709 --max-distance-m 5 "${dense[@]}"
+simulate c_laser_pointing pointing laser 120 710 --max-distance-m 5
+simulate c_colorless_pointing pointing depth 80 711 --color=false
 
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done
@@ -34,7 +39,6 @@ simulate p_multi2 multi stereo 100 301 --child-share 0.25
 simulate p_depth_nohuman nohuman depth 120 806 --color
 simulate p_depth_multi multi depth 80 807 --color --child-share 0.15
 simulate p_pointing pointing stereo 80 304 --max-distance-m 5.2
-dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
 simulate p_laser_nohuman nohuman laser 80 809
 simulate p_dense_nohuman nohuman laser 60 814 "${dense[@]}"
 simulate p_laser_nohuman2 nohuman laser 120 823
@@ -48,5 +52,10 @@ simulate p_general general stereo 120 302 --child-share 0.3 --max-distance-m 5.2
 simulate p_depth_sit general depth 60 808 --color --posture sit
 simulate p_depth_pointing pointing depth 50 815 --color
 simulate p_nohuman3 nohuman stereo 100 303
+simulate p_nohuman4 nohuman stereo 150 831
+simulate p_laser_nohuman3 nohuman laser 120 832
+simulate p_colorless_nohuman nohuman depth 120 833 --color=false
+simulate p_colorless_multi multi depth 60 834 --color=false --child-share 0.15
+simulate p_colorless_pointing pointing depth 50 835 --color=false
 "$bin/limbcast-train-persons" modules/pose_fitter/refined/person_trees.inc "${folders[@]}" "${recorded[@]}" \
   "$data/stereo_dev/nohuman"

@@ -95,6 +95,45 @@ TEST(HiddenHeads, AreNotGuessedOnThePlaceOfAnotherPerson) {
   EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
 }
 
+/// A body in the middle whose crown is so high over the sensor.
+Lattice body_in_sight(float crown_m) {
+  return look_into_room([crown_m](float right_m, float up_m) {
+    return std::abs(right_m) < kTrunk_m && up_m < crown_m && up_m > kSole_m ? kBody_m : 0.0F;
+  });
+}
+
+TEST(WholeBodies, HaveTheirHeadsOnTop) {
+  constexpr float kCrown_m = 0.5F;
+  const Lattice lattice = body_in_sight(kCrown_m);
+  const auto found = find_whole_bodies(lattice, nobody(lattice), {});
+  ASSERT_EQ(found.size(), 1U);
+  const HeadCandidate& head = found[0].head;
+  EXPECT_EQ(head.kind, SeedKind::kBody);
+  EXPECT_NEAR(head.center_m.x(), 0.0F, 0.05F);
+  EXPECT_NEAR(head.center_m.y(), kBody_m + WholeBodyParams{}.head_depth_m, 0.02F);
+  EXPECT_NEAR(head.center_m.z(), kSensorHeight_m + kCrown_m - 0.15F, 0.1F);
+  // Growing starts at the surface.
+  EXPECT_EQ(lattice.level_m[lattice.index(head.u, head.v)], head.surface_m);
+  EXPECT_FALSE(found[0].points.empty());
+}
+
+TEST(WholeBodies, AreAsHighAsPeople) {
+  for (const float crown_m : {-0.4F, 1.2F}) {
+    const Lattice lattice = body_in_sight(crown_m);
+    EXPECT_TRUE(find_whole_bodies(lattice, nobody(lattice), {}).empty()) << crown_m;
+  }
+}
+
+TEST(WholeBodies, NeedTheGroundAndPointsThatNobodyHas) {
+  Lattice lattice = body_in_sight(0.5F);
+  FoundPeople found = nobody(lattice);
+  const HeadlessSurface body = find_whole_bodies(lattice, found, {}).at(0);
+  for (const std::uint32_t i : body.points) found.labels[i] = 0;
+  EXPECT_TRUE(find_whole_bodies(lattice, found, {}).empty());
+  lattice.frame.ground_known = false;
+  EXPECT_TRUE(find_whole_bodies(lattice, nobody(lattice), {}).empty());
+}
+
 TEST(HiddenHeads, NeedTheGround) {
   Lattice lattice = body_at_edge();
   lattice.frame.ground_known = false;

@@ -125,10 +125,31 @@ TEST_F(JointsOfTheDemo, AreToldOfThePeopleAndNotOfWhatIsRejected) {
   EXPECT_GT(segments.at(0).image_pose->person_score, 0.9F);
 }
 
-TEST_F(JointsOfTheDemo, AreNotToldWithoutColor) {
+TEST_F(JointsOfTheDemo, AreNotSeenInColorsThatAreNone) {
   Cloud colorless = cloud_;
   colorless.colors.clear();
   EXPECT_FALSE(look(colorless, head_m_));
+}
+
+TEST_F(JointsOfTheDemo, AreSeenInTheSurfaceWithoutColor) {
+  constexpr float kNear_m = 0.10F;
+  for (const bool hangs_sideways : {false, true}) {
+    Cloud colorless = hangs_sideways ? turned(cloud_) : cloud_;
+    colorless.colors.clear();
+    const ImagePose pose = segment(colorless).segments.at(0).image_pose.value();
+    EXPECT_GT(pose.person_score, 0.9F);
+    // Sides are a guess; these are not.
+    const Eigen::Vector2f hips_px =
+        0.5F * (find(pose, Joint::kHipLeft).px + find(pose, Joint::kHipRight).px);
+    const std::vector<std::pair<Eigen::Vector2f, Joint>> places = {
+        {find(pose, Joint::kHead).px, Joint::kHead}, {hips_px, Joint::kPelvis}};
+    for (const auto& [px, joint] : places) {
+      const Eigen::Vector3f truth_m =
+          hangs_sideways ? turned(person_[joint].position_m) : person_[joint].position_m;
+      const Eigen::Vector3f told_m = colorless.camera->back_project(px.x(), px.y(), truth_m.z());
+      EXPECT_LT((told_m - truth_m).norm(), kNear_m) << kJointNames[index(joint)];
+    }
+  }
 }
 
 TEST_F(JointsOfTheDemo, AreNotToldInACloudThatIsNoCameras) {

@@ -37,7 +37,7 @@ Cloud true_cloud(const std::string& path, const PinholeCamera& camera, const Sta
     for (int u = 0; u < depth.cols; ++u) {
       cloud.points_m.push_back(
           camera.back_project(static_cast<float>(u), static_cast<float>(v), depth(v, u)));
-      const auto bgr = color.at<cv::Vec3b>(v, u);
+      const auto& bgr = color.at<cv::Vec3b>(v, u);
       cloud.colors.push_back({bgr[0], bgr[1], bgr[2]});
     }
   }
@@ -135,7 +135,7 @@ LoadedFrame FrameReader::read(const std::string& path) const {
                       : stereo_->reconstruct({stamp, frame.color, right});
     frame.color = pair.left;
   } else if (depth_) {
-    frame.color = cv::imread(path + "_color.jpg");
+    if (fs::exists(path + "_color.jpg")) frame.color = cv::imread(path + "_color.jpg");
     frame.cloud = depth_->reconstruct(
         {stamp, frame.color, cv::imread(path + "_depth.png", cv::IMREAD_UNCHANGED)});
   } else {

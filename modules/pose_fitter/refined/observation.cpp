@@ -153,6 +153,7 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
 void set_seen_joints(const Segment& segment, const RangeImage& image, Observation& observation) {
   if (!segment.image_pose) return;
   observation.has_image_pose = true;
+  observation.image_has_colors = !image.is_skin.empty();
   observation.image_person_score = segment.image_pose->person_score;
   const Eigen::Vector2f origin_px(static_cast<float>(image.origin_u),
                                   static_cast<float>(image.origin_v));

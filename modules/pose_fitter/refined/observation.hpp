@@ -47,7 +47,8 @@ struct Observation {
   DepthNoise noise;
 
   FaceEvidence face;              ///< what its face tells
-  bool has_image_pose = false;    ///< the next two are told
+  bool has_image_pose = false;    ///< the next three are told
+  bool image_has_colors = false;  ///< else the surface was looked at, whose sides are a guess
   Real image_person_score = 0.0;  ///< how sure the image's network is of a person, 0 to 1
   std::array<SeenJoint, kJointCount> seen_joints;
   Vec3 up;                         ///< against gravity
