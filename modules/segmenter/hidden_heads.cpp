@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "modules/segmenter/surfaces.hpp"
-
 namespace limbcast::segmenter {
 namespace {
 
@@ -184,10 +182,10 @@ bool near_a_head(const std::vector<HeadCandidate>& heads, const Eigen::Vector3f&
 }  // namespace
 
 std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
+                                                    const Surfaces& surfaces,
                                                     const FoundPeople& found,
                                                     const HiddenHeadParams& params) {
   if (!lattice.frame.ground_known) return {};
-  const Surfaces surfaces = find_surfaces(lattice, params.surface, &found.labels);
   const View view(lattice, found, params);
   std::vector<HeadlessSurface> headless;
   for (std::vector<std::uint32_t>& points :
@@ -212,10 +210,9 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
   return headless;
 }
 
-std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const FoundPeople& found,
+std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Surfaces& surfaces,
                                                const WholeBodyParams& params) {
   if (!lattice.frame.ground_known) return {};
-  const Surfaces surfaces = find_surfaces(lattice, params.surface, &found.labels);
   std::vector<HeadlessSurface> bodies;
   for (std::vector<std::uint32_t>& points :
        points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
@@ -228,10 +225,11 @@ std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Fou
   return bodies;
 }
 
-void add_headless_people(const Lattice& lattice, const SurfaceClassifier& classifier,
-                         const HiddenHeadParams& params, FoundPeople& found) {
+void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
+                         const SurfaceClassifier& classifier, const HiddenHeadParams& params,
+                         FoundPeople& found) {
   const auto first = static_cast<std::ptrdiff_t>(found.heads.size());
-  for (const HeadlessSurface& surface : find_headless_surfaces(lattice, found, params)) {
+  for (const HeadlessSurface& surface : find_headless_surfaces(lattice, surfaces, found, params)) {
     const float odds = classifier.mean_odds(lattice, surface.points);
     if (odds < params.min_body_odds) {
       found.rejected.push_back(

@@ -7,6 +7,7 @@
 #include "modules/segmenter/params.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
+#include "modules/segmenter/surfaces.hpp"
 
 namespace limbcast::segmenter {
 
@@ -17,18 +18,20 @@ struct HeadlessSurface {
   std::vector<std::uint32_t> points;
 };
 
-/// All of them in a camera's lattice, largest first; none where the ground is not known, which
-/// tells how high heads are.
+/// `surfaces`: those that nobody has. All of them in a camera's lattice, largest first; none where
+/// the ground is not known, which tells how high heads are.
 std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
+                                                    const Surfaces& surfaces,
                                                     const FoundPeople& found,
                                                     const HiddenHeadParams& params);
 
 /// Surfaces that nobody has and that are as high and wide as a body, with the head on top of them.
-std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const FoundPeople& found,
+std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Surfaces& surfaces,
                                                const WholeBodyParams& params);
 
 /// Adds those that are a body's to the people who were found, and the others to the rejected.
-void add_headless_people(const Lattice& lattice, const SurfaceClassifier& classifier,
-                         const HiddenHeadParams& params, FoundPeople& found);
+void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
+                         const SurfaceClassifier& classifier, const HiddenHeadParams& params,
+                         FoundPeople& found);
 
 }  // namespace limbcast::segmenter

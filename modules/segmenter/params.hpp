@@ -209,8 +209,6 @@ struct HiddenHeadParams {
 /// People whose head is in sight but not shaped like one: a hand that points at the sensor is
 /// before it.
 struct WholeBodyParams {
-  /// As of `HiddenHeadParams`.
-  SurfaceParams surface{0.05F, 0.006F};
   /// Surface of a standing or sitting body, the arm before it left out [m^2].
   float min_area_m2 = 0.15F, max_area_m2 = 1.2F;
   /// Its largest level side, its least height, and where its top may be over the ground [m]: adults

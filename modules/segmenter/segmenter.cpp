@@ -176,14 +176,17 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
     return image_head_odds(scene, head);
   };
   FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_, opinion);
-  const std::vector<HeadCandidate> whole = find_whole_people(scene, people);
+  const SurfaceParams& surface = params_.hidden_heads.surface;
+  Surfaces surfaces = find_surfaces(scene.lattice, surface, &people.labels);
+  const std::vector<HeadCandidate> whole = find_whole_people(scene, surfaces);
   if (!whole.empty()) {
     std::vector<HeadCandidate> all = seeds;
     all.insert(all.end(), whole.begin(), whole.end());
     people = find_people(scene.lattice, std::move(all), classifier_, bodies_, params_, opinion);
+    surfaces = find_surfaces(scene.lattice, surface, &people.labels);
   }
   if (scene.cloud.organized())
-    add_headless_people(scene.lattice, surfaces_, params_.hidden_heads, people);
+    add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, people);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
     result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {
@@ -209,10 +212,10 @@ std::optional<float> Segmenter::image_head_odds(const Scene& scene,
 }
 
 std::vector<HeadCandidate> Segmenter::find_whole_people(const Scene& scene,
-                                                        const FoundPeople& found) const {
+                                                        const Surfaces& surfaces) const {
   std::vector<HeadCandidate> people;
   const Eigen::Vector3f down = down_of(scene.lattice.frame);
-  for (auto& [head, points] : find_whole_bodies(scene.lattice, found, params_.whole_bodies)) {
+  for (auto& [head, points] : find_whole_bodies(scene.lattice, surfaces, params_.whole_bodies)) {
     // Depths alone tell most furniture before a camera, in less time than the network.
     if (scene.cloud.organized() &&
         surfaces_.mean_odds(scene.lattice, points) < params_.whole_bodies.min_body_odds)

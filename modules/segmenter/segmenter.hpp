@@ -15,6 +15,7 @@
 #include "modules/segmenter/pose_network.hpp"
 #include "modules/segmenter/skin_color.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
+#include "modules/segmenter/surfaces.hpp"
 
 namespace limbcast::segmenter {
 
@@ -55,7 +56,7 @@ class Segmenter {
   /// Log odds of a head, by the depths around it and by what the colour image shows beneath it.
   std::optional<float> image_head_odds(const Scene& scene, const HeadCandidate& head) const;
   /// Heads of bodies that nobody has and that the network of poses takes for people.
-  std::vector<HeadCandidate> find_whole_people(const Scene& scene, const FoundPeople& found) const;
+  std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
   std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
                                             const std::vector<std::int16_t>& labels) const;
   /// What the network of poses sees of a person: in the colours, or where there are none in the

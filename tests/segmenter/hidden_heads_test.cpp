@@ -36,8 +36,18 @@ FoundPeople nobody(const Lattice& lattice) {
   return found;
 }
 
-std::vector<HeadlessSurface> find(const Lattice& lattice) {
-  return find_headless_surfaces(lattice, nobody(lattice), {});
+Surfaces surfaces_beside(const Lattice& lattice, const FoundPeople& found) {
+  return find_surfaces(lattice, HiddenHeadParams{}.surface, &found.labels);
+}
+
+std::vector<HeadlessSurface> find(const Lattice& lattice, const FoundPeople& found) {
+  return find_headless_surfaces(lattice, surfaces_beside(lattice, found), found, {});
+}
+
+std::vector<HeadlessSurface> find(const Lattice& lattice) { return find(lattice, nobody(lattice)); }
+
+std::vector<HeadlessSurface> find_whole(const Lattice& lattice, const FoundPeople& found) {
+  return find_whole_bodies(lattice, surfaces_beside(lattice, found), {});
 }
 
 /// Half a body at the right edge of the image.
@@ -77,13 +87,13 @@ TEST(HiddenHeads, AreGuessedBehindWhoIsSurelyAPerson) {
     if (lattice.depth_m[i] == kNearer_m) found.labels[i] = 0;
   }
 
-  const auto behind = find_headless_surfaces(lattice, found, {});
+  const auto behind = find(lattice, found);
 
   ASSERT_EQ(behind.size(), 1U);
   EXPECT_LT(behind[0].head.center_m.x(), 0.25F);
   EXPECT_NEAR(behind[0].head.center_m.y(), kBody_m, 0.2F);
   found.person_odds[0] = 0.0F;
-  EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
+  EXPECT_TRUE(find(lattice, found).empty());
 }
 
 TEST(HiddenHeads, AreNotGuessedOnThePlaceOfAnotherPerson) {
@@ -92,7 +102,7 @@ TEST(HiddenHeads, AreNotGuessedOnThePlaceOfAnotherPerson) {
   found.heads.push_back(find(lattice).at(0).head);
   found.heads[0].center_m.z() -= 0.3F;
   found.person_odds.push_back(5.0F);
-  EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
+  EXPECT_TRUE(find(lattice, found).empty());
 }
 
 /// A body in the middle whose crown is so high over the sensor.
@@ -105,7 +115,7 @@ Lattice body_in_sight(float crown_m) {
 TEST(WholeBodies, HaveTheirHeadsOnTop) {
   constexpr float kCrown_m = 0.5F;
   const Lattice lattice = body_in_sight(kCrown_m);
-  const auto found = find_whole_bodies(lattice, nobody(lattice), {});
+  const auto found = find_whole(lattice, nobody(lattice));
   ASSERT_EQ(found.size(), 1U);
   const HeadCandidate& head = found[0].head;
   EXPECT_EQ(head.kind, SeedKind::kBody);
@@ -120,18 +130,18 @@ TEST(WholeBodies, HaveTheirHeadsOnTop) {
 TEST(WholeBodies, AreAsHighAsPeople) {
   for (const float crown_m : {-0.4F, 1.2F}) {
     const Lattice lattice = body_in_sight(crown_m);
-    EXPECT_TRUE(find_whole_bodies(lattice, nobody(lattice), {}).empty()) << crown_m;
+    EXPECT_TRUE(find_whole(lattice, nobody(lattice)).empty()) << crown_m;
   }
 }
 
 TEST(WholeBodies, NeedTheGroundAndPointsThatNobodyHas) {
   Lattice lattice = body_in_sight(0.5F);
   FoundPeople found = nobody(lattice);
-  const HeadlessSurface body = find_whole_bodies(lattice, found, {}).at(0);
+  const HeadlessSurface body = find_whole(lattice, found).at(0);
   for (const std::uint32_t i : body.points) found.labels[i] = 0;
-  EXPECT_TRUE(find_whole_bodies(lattice, found, {}).empty());
+  EXPECT_TRUE(find_whole(lattice, found).empty());
   lattice.frame.ground_known = false;
-  EXPECT_TRUE(find_whole_bodies(lattice, nobody(lattice), {}).empty());
+  EXPECT_TRUE(find_whole(lattice, nobody(lattice)).empty());
 }
 
 TEST(HiddenHeads, NeedTheGround) {
@@ -145,7 +155,7 @@ TEST(HiddenHeads, LeaveOutWhatSomebodyHas) {
   FoundPeople found = nobody(lattice);
   const HeadlessSurface surface = find(lattice).at(0);
   for (const std::uint32_t i : surface.points) found.labels[i] = kUnsure;
-  EXPECT_TRUE(find_headless_surfaces(lattice, found, {}).empty());
+  EXPECT_TRUE(find(lattice, found).empty());
 }
 
 /// Says the same of every point.
@@ -162,7 +172,8 @@ TEST(HeadlessPeople, AreThoseWhoseSurfaceIsABodys) {
   const Lattice lattice = body_at_edge();
   FoundPeople found = nobody(lattice);
   const HiddenHeadParams params;
-  add_headless_people(lattice, always_surface(2.0F), params, found);
+  add_headless_people(lattice, surfaces_beside(lattice, found), always_surface(2.0F), params,
+                      found);
   ASSERT_EQ(found.heads.size(), 1U);
   EXPECT_FLOAT_EQ(found.person_odds.at(0), 2.0F + params.place_odds);
   EXPECT_EQ(found.labels[index_at(lattice, kEdge_m - 0.1F, -0.2F)], 0);
@@ -172,7 +183,7 @@ TEST(HeadlessPeople, AreThoseWhoseSurfaceIsABodys) {
 TEST(HeadlessPeople, AreRejectedWhereTheSurfaceIsNone) {
   const Lattice lattice = body_at_edge();
   FoundPeople found = nobody(lattice);
-  add_headless_people(lattice, always_surface(-2.0F), {}, found);
+  add_headless_people(lattice, surfaces_beside(lattice, found), always_surface(-2.0F), {}, found);
   EXPECT_TRUE(found.heads.empty());
   ASSERT_EQ(found.rejected.size(), 1U);
   EXPECT_EQ(found.rejected[0].rejection.filter, SegmentFilter::kNotHeadShaped);
