@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/segmenter/drawn_scene.hpp"
 
 namespace limbcast::segmenter {
@@ -105,10 +107,10 @@ TEST(HiddenHeads, AreNotGuessedOnThePlaceOfAnotherPerson) {
   EXPECT_TRUE(find(lattice, found).empty());
 }
 
-/// A body in the middle whose crown is so high over the sensor.
-Lattice body_in_sight(float crown_m) {
-  return look_into_room([crown_m](float right_m, float up_m) {
-    return std::abs(right_m) < kTrunk_m && up_m < crown_m && up_m > kSole_m ? kBody_m : 0.0F;
+/// A body in the middle whose crown and soles are so high over the sensor.
+Lattice body_in_sight(float crown_m, float sole_m = kSole_m) {
+  return look_into_room([crown_m, sole_m](float right_m, float up_m) {
+    return std::abs(right_m) < kTrunk_m && up_m < crown_m && up_m > sole_m ? kBody_m : 0.0F;
   });
 }
 
@@ -128,9 +130,12 @@ TEST(WholeBodies, HaveTheirHeadsOnTop) {
 }
 
 TEST(WholeBodies, AreAsHighAsPeople) {
-  for (const float crown_m : {-0.4F, 1.2F}) {
-    const Lattice lattice = body_in_sight(crown_m);
-    EXPECT_TRUE(find_whole(lattice, nobody(lattice)).empty()) << crown_m;
+  // Each breaks one limit only: too low over the ground, too high, too short.
+  constexpr float kLow_m = -0.18F, kHigh_m = 1.2F, kCrown_m = 0.5F, kHangs_m = -0.3F;
+  for (const auto& [crown_m, sole_m] :
+       {std::pair{kLow_m, kSole_m}, {kHigh_m, kSole_m}, {kCrown_m, kHangs_m}}) {
+    const Lattice lattice = body_in_sight(crown_m, sole_m);
+    EXPECT_TRUE(find_whole(lattice, nobody(lattice)).empty()) << crown_m << " to " << sole_m;
   }
 }
 
