@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/program_options.hpp>
 #include <fstream>
 #include <iostream>
 #include <optional>
