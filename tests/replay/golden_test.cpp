@@ -3,6 +3,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <utility>
 
 #include "common/lcm_io/pose_log.hpp"
 #include "common/pose_json/pose_lines.hpp"
@@ -26,8 +28,12 @@ std::vector<BodyPoses> poses_of(const std::string& log) {
 
 class ReplayOfALog : public ::testing::TestWithParam<const char*> {
  protected:
-  std::string replay_on(int threads) const {
-    std::string out = folder_ + "/" + std::to_string(threads) + ".log";
+  /// Replays once, however many cases of this process ask for it.
+  static std::string replay_on(int threads) {
+    static std::map<std::pair<std::string, int>, std::string> replayed;
+    std::string& out = replayed[{GetParam(), threads}];
+    if (!out.empty()) return out;
+    out = test::temporary_folder(std::to_string(threads) + "_threads") + "/out.log";
     const auto result =
         test::run({test::program("limbcast-replay"),
                    test::repository_file(std::string("logs/") + GetParam() + ".log"), out,
@@ -35,7 +41,6 @@ class ReplayOfALog : public ::testing::TestWithParam<const char*> {
     EXPECT_EQ(result.exit_code, 0) << result.output;
     return out;
   }
-  const std::string folder_ = test::temporary_folder(std::string("golden_") + GetParam());
 };
 
 // Update on purpose with tests/replay/update_golden.sh.
