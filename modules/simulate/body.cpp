@@ -128,6 +128,16 @@ void set_girths(BodyShape& body, Rng& rng, double child) {
   body.breast_m = body.female && adult ? rng.uniform(0.045, 0.075) * body.stature_m / 1.65 : 0.0;
 }
 
+/// Thick, wide clothes over what was drawn.
+void put_on_coat(Rng rng, double girth, Clothes& clothes) {
+  clothes.sleeve = Sleeve::kLong;
+  clothes.jacket = true;
+  clothes.sleeve_m = girth * rng.uniform(0.015, 0.040);
+  clothes.torso_m = girth * rng.uniform(0.025, 0.065);
+  clothes.legs_m = girth * rng.uniform(0.005, 0.030);
+  clothes.backpack = rng.chance(0.2);
+}
+
 }  // namespace
 
 BodyShape draw_body(Rng& rng, const BodyParams& params) {
@@ -142,7 +152,10 @@ BodyShape draw_body(Rng& rng, const BodyParams& params) {
   const double child = std::clamp((1.55 - body.stature_m) / 0.55, 0.0, 1.0);
   set_lengths(body, rng, child);
   set_girths(body, rng, child);
-  body.clothes = draw_clothes(rng, body.female, body.stature_m / 1.75, params);
+  const double girth = body.stature_m / 1.75;
+  body.clothes = draw_clothes(rng, body.female, girth, params);
+  const Rng coat = rng.derive(1);
+  if (coat.derive(1).chance(params.coat_share)) put_on_coat(coat, girth, body.clothes);
   body.name = child > 0.0 ? "child" : body.female ? "woman" : "man";
   return body;
 }

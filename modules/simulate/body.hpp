@@ -59,6 +59,7 @@ struct BodyParams {
   double child_share = 0.2;    ///< of all people; the rest are adults
   double min_stature_m = 1.0;  ///< of children
   double plain_share = 0.35;   ///< of tops in one colour
+  double coat_share = 0.0;     ///< of all people; who stands outdoors in winter wears one
 };
 
 /// Draws a person. The same generator state gives the same person.

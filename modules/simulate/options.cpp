@@ -54,7 +54,11 @@ void declare(config::Section& section, SimulateOptions& options) {
               {0.05, 5.0});
   section.add("occluder-share", params.scenario.occluder_share, "",
               "of frames with something before a person", {0.0, 1.0});
+  section.add("street-share", params.scenario.street_share, "",
+              "of frames among trunks, poles, bushes and cars, not in a room", {0.0, 1.0});
   section.add("child-share", params.scenario.body.child_share, "", "of people who are children",
+              {0.0, 1.0});
+  section.add("coat-share", params.scenario.body.coat_share, "", "of people who wear thick coats",
               {0.0, 1.0});
   section.add("frame-rate-hz", params.scenario.frame_rate_hz, "Hz", "of a sequence", {0.1, 1000.0});
   section.add("pitch-down-deg", params.scenario.pitch_down_deg, "deg", "mean pitch of the camera",

@@ -162,9 +162,13 @@ void furnish(SceneBuilder& scene, Rng& rng, const ScenarioParams& params,
     // Nothing stands at random before a person: occluders are drawn on purpose.
     keep_free.push_back({0.7 * person.place.x_m, 0.7 * person.place.z_m, 0.5});
   }
-  scene.room(keep_free);
-  scene.furniture(2 + rng.pick(6), keep_free);
   const bool empty = params.set == SetKind::kNoHuman;
+  if (rng.derive(1).chance(params.street_share)) {
+    scene.street(keep_free);
+  } else {
+    scene.room(keep_free);
+    scene.furniture(2 + rng.pick(6), keep_free);
+  }
   scene.lookalikes(empty ? 2 + rng.pick(5) : rng.pick(3) / 2, keep_free);
   for (const Person& person : persons) {
     if (person.posture.seated) scene.seat(person.body, person.skeleton);

@@ -21,6 +21,7 @@ struct ScenarioParams {
       max_persons = 0;  ///< 0 = as the set has it: one, in multi 2 to 5, in nohuman none
   double min_distance_m = 1.3, max_distance_m = 4.8;  ///< of people along the camera's axis
   double occluder_share = 0.2;  ///< of frames with something between camera and a person
+  double street_share = 0.0;    ///< of frames that are in a street, not in a room
   double cut_share = 0.15;      ///< of people who may stand partly out of the image
   double min_camera_height_m = 0.9, max_camera_height_m = 1.6;
   double pitch_down_deg = 0.0;                         ///< mean pitch of the camera

@@ -104,10 +104,10 @@ void SceneBuilder::room(const std::vector<Circle>& keep_free) {
 }
 
 bool SceneBuilder::find_place(const std::vector<Circle>& keep_free, double radius_m, double& x_m,
-                              double& z_m) {
+                              double& z_m, double from_m, double to_m, double slope) {
   for (int attempt = 0; attempt < 20; ++attempt) {
-    z_m = rng_.uniform(1.6, 6.5);
-    x_m = rng_.uniform(-0.75, 0.75) * (z_m + 0.5);
+    z_m = rng_.uniform(from_m, to_m);
+    x_m = rng_.uniform(-slope, slope) * (z_m + 0.5);
     const bool free = std::none_of(keep_free.begin(), keep_free.end(), [&](const Circle& circle) {
       return std::hypot(circle.x_m - x_m, circle.z_m - z_m) < circle.radius_m + radius_m;
     });

@@ -24,6 +24,9 @@ class SceneBuilder {
   /// Floor and, mostly, walls and ceiling; else a yard with a house and trees far away. Mostly the
   /// walls keep away from the circles; some people lean against them.
   void room(const std::vector<Circle>& keep_free);
+  /// In place of a room: trunks, poles, bushes and cars on open ground, houses far away. Trunks and
+  /// poles reach over what a scanner of few degrees sees.
+  void street(const std::vector<Circle>& keep_free);
   /// `count` pieces of furniture that leave the circles free.
   void furniture(int count, const std::vector<Circle>& keep_free);
   /// Something between the camera and `place` that hides a part of what stands there.
@@ -46,7 +49,9 @@ class SceneBuilder {
   Material some_material();
   Material wood();
   Material even(Bgr color, float grain);
-  bool find_place(const std::vector<Circle>& keep_free, double radius_m, double& x_m, double& z_m);
+  /// A free place at `from_m` to `to_m`, in a view that widens by `slope` to each side.
+  bool find_place(const std::vector<Circle>& keep_free, double radius_m, double& x_m, double& z_m,
+                  double from_m = 1.6, double to_m = 6.5, double slope = 0.75);
 
   void table(double x, double z);
   void chair(double x, double z, double yaw_rad, double seat_height_m, double width_m);
@@ -58,6 +63,11 @@ class SceneBuilder {
   void ball_on_pillar(double x, double z);
   void coat_stand(double x, double z);
   void box_figure(double x, double z);
+  void trunk(double x, double z);
+  void pole(double x, double z);
+  void foliage(const Eigen::Vector3d& center, double spread_m);
+  void bush(double x, double z);
+  void car(double x, double z);
 
   Rng rng_;
   World world_;

@@ -24,6 +24,19 @@ TEST(Body, IsTheSameForTheSameSeed) {
   EXPECT_EQ(draw_body(first).stature_m, draw_body(second).stature_m);
 }
 
+TEST(Body, WearsACoatOverTheSameBody) {
+  BodyParams coats;
+  coats.coat_share = 1.0;
+  for (int seed = 0; seed < 20; ++seed) {
+    Rng rng(seed), same(seed);
+    const BodyShape without = draw_body(rng), with = draw_body(same, coats);
+
+    EXPECT_EQ(with.stature_m, without.stature_m);
+    EXPECT_GE(with.clothes.torso_m, 0.02 * without.stature_m / 1.75);
+    EXPECT_EQ(with.clothes.sleeve, Sleeve::kLong);
+  }
+}
+
 TEST(Body, StandsAsTallAsItsStature) {
   for (int seed = 0; seed < 30; ++seed) {
     Rng rng(seed);

@@ -84,6 +84,25 @@ TEST(SimulateFrame, ShowsAsManyPeopleAsTheSetHas) {
   }
 }
 
+/// Of 20 frames without people those with something right over the sensor.
+int frames_under_a_roof(double street_share) {
+  SimulatorParams params = small_params(SetKind::kNoHuman, SensorKind::kLaser);
+  params.scenario.street_share = street_share;
+  int count = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Scenario scenario = draw_scenario(params.scenario, params.camera, 3, i);
+    const Eigen::Vector3f up = -scenario.down.cast<float>();
+    const RayGrid ray{1, 1, Eigen::Vector3f::Zero(), [&up](int, int) { return up; }};
+    if (raycast(scenario.world, ray).at(0, 0)) ++count;
+  }
+  return count;
+}
+
+TEST(Scenario, AStreetHasNoCeiling) {
+  EXPECT_EQ(frames_under_a_roof(1.0), 0);
+  EXPECT_GT(frames_under_a_roof(0.0), 10);
+}
+
 TEST(Visibility, ShowsAllJointsOfSomebodyWithRaisedArms) {
   const Scenario scenario = lone_person(0.0);
   const Visibility seen = visibility_of(scenario, scenario.persons[0], kWide);
