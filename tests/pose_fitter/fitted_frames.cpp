@@ -32,6 +32,16 @@ segmenter::Params without_image(segmenter::Params params) {
 /// Of four frames one is seen without colour's help, as a camera without colour would see it.
 bool is_without_image(std::size_t frame) { return frame % 4 == 3; }
 
+/// A scan's noise is what the user says, or limbcast-laser-scanner's default [m], and outdoors no
+/// plane may be found to be the ground: what is told with a scan differs from frame to frame.
+constexpr float kToldNoiseM = 0.02F;
+void vary_stamp(std::size_t frame, Cloud& cloud) {
+  const bool is_scan = cloud.height == 1;
+  if (!is_scan) return;
+  if (frame / 4 % 2 == 1) cloud.stamp.depth_noise.constant_m = kToldNoiseM;
+  if (frame % 3 == 2) cloud.stamp.gravity.sensor_height_m.reset();
+}
+
 FittedFrame fit_frame(const LoadedFrame& frame, std::vector<BodyPose> truth,
                       const segmenter::Segmenter& segmenter) {
   const Segments segments = segmenter.segment(frame.cloud);
@@ -59,7 +69,8 @@ void fit_frames(const std::string& folder, const segmenter::Params& params,
   std::vector<std::optional<FittedFrame>> frames(reader.paths().size());
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
     const std::string& path = reader.paths()[i];
-    const LoadedFrame frame = reader.read(path);
+    LoadedFrame frame = reader.read(path);
+    vary_stamp(i, frame.cloud);
     if (!frame.labelled || frame.for_checking()) return;
     frames[i] = fit_frame(frame, read_ground_truth(path + "_gt.json").persons,
                           is_without_image(i) ? colorless : segmenter);

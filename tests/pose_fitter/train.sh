@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   3400 simulated frames, 1.4 GB, about half an hour on one core; sets that are there stay
+#   SIMULATED_DIR   4700 simulated frames, 1.6 GB, about half an hour on one core; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -57,5 +57,22 @@ simulate p_laser_nohuman3 nohuman laser 120 832
 simulate p_colorless_nohuman nohuman depth 120 833 --color=false
 simulate p_colorless_multi multi depth 60 834 --color=false --child-share 0.15
 simulate p_colorless_pointing pointing depth 50 835 --color=false
+# Scanners of few rings: 32 over 45, 90 and 23 degrees, in rooms and in streets, where people wear coats.
+few=(--rings 32 --azimuth-step-deg 0.35 --range-sigma-m 0.015)
+wide=("${few[@]}" --max-elevation-deg 45)
+street=("${few[@]}" --street-share 1 --max-camera-height-m 2.1)
+narrow=("${street[@]}" --max-elevation-deg 11.25)
+coats=(--coat-share 0.4 --child-share 0.15)
+simulate p_few_nohuman nohuman laser 150 841 "${few[@]}"
+simulate p_few_multi multi laser 120 842 --max-distance-m 7 "${few[@]}" "${coats[@]}"
+simulate p_few_pointing pointing laser 60 845 --max-distance-m 6 "${few[@]}"
+simulate p_few_general general laser 80 847 --max-distance-m 7 "${few[@]}" "${coats[@]}"
+simulate p_wide_nohuman nohuman laser 120 843 "${wide[@]}"
+simulate p_wide_multi multi laser 120 844 --max-distance-m 5 "${wide[@]}" "${coats[@]}"
+simulate p_wide_general general laser 100 846 --max-distance-m 5 "${wide[@]}" "${coats[@]}"
+simulate p_street_nohuman nohuman laser 200 861 "${street[@]}"
+simulate p_street_multi multi laser 80 862 --max-distance-m 9 "${street[@]}" "${coats[@]}"
+simulate p_narrow_nohuman nohuman laser 200 863 "${narrow[@]}"
+simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9 "${narrow[@]}" "${coats[@]}"
 "$bin/limbcast-train-persons" modules/pose_fitter/refined/person_trees.inc "${folders[@]}" "${recorded[@]}" \
   "$data/stereo_dev/nohuman"
