@@ -67,7 +67,7 @@ struct ImageJoint {
       Eigen::Vector2f::Zero();  ///< in the cloud's lattice (a list: in `range_image`), or beyond
   float visibility = 0.0F;      ///< 0 to 1, how sure the joint is in sight and there
   /// How much farther along the optical axis than the hips' middle; rough: of one wrist
-  /// in eight the sign is wrong.
+  /// in eight the sign is wrong. 0 of MoveNet, which tells none.
   float behind_hips_m = 0.0F;
 };
 
@@ -85,7 +85,8 @@ struct Segment {
   SeedKind seed_kind = SeedKind::kSkin;
   float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head (kBody: of a person)
   FaceEvidence face;
-  std::optional<ImagePose> image_pose;  ///< nothing where nobody looked
+  /// As BlazePose sees the person and, second, MoveNet; empty where nobody looked.
+  std::vector<ImagePose> image_poses;
   SegmentFilter rejected_by = SegmentFilter::kNone;
   float filter_figure = 0.0F;             ///< what the rejecting filter measured
   float filter_limit = 0.0F;              ///< against what

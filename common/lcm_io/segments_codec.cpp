@@ -17,6 +17,7 @@ namespace {
 constexpr int kMaxWindowSide = 8192;
 /// A joint of somebody close by may lie far beyond the image's edge; nothing lies farther [px].
 constexpr float kFarthestJoint_px = 1e6F;
+constexpr std::size_t kMostImagePoses = 2;
 constexpr std::int32_t kMaxSegmentPoints = 8'000'000;
 constexpr std::uint8_t kLabelMask = 0x03;
 constexpr std::uint8_t kSkinBit = 0x04;
@@ -180,7 +181,7 @@ segment_t to_message(const Segment& segment, const DepthNoise& noise) {
   message.seed_score = segment.seed_score;
   message.facing_log_odds = segment.face.facing_log_odds;
   message.looks_right_log_odds = segment.face.looks_right_log_odds;
-  if (segment.image_pose) message.image_poses.push_back(to_message(*segment.image_pose));
+  for (const ImagePose& pose : segment.image_poses) message.image_poses.push_back(to_message(pose));
   message.num_image_poses = static_cast<std::int32_t>(message.image_poses.size());
   message.rejected_by = static_cast<std::int8_t>(segment.rejected_by);
   message.filter_figure = segment.filter_figure;
@@ -204,8 +205,10 @@ Segment from_message(const segment_t& message) {
   require(std::isfinite(message.facing_log_odds) && std::isfinite(message.looks_right_log_odds),
           "segments: odds of a face are not finite");
   segment.face = {message.facing_log_odds, message.looks_right_log_odds};
-  require(message.image_poses.size() <= 1, "segments: more than one person of the image");
-  if (!message.image_poses.empty()) segment.image_pose = from_message(message.image_poses.front());
+  require(message.image_poses.size() <= kMostImagePoses,
+          "segments: too many poses of a person in the image");
+  for (const image_pose_t& pose : message.image_poses)
+    segment.image_poses.push_back(from_message(pose));
   require(
       message.rejected_by >= segment_t::VALID && message.rejected_by <= segment_t::NOT_HEAD_SHAPED,
       "segments: unknown 'rejected_by'");

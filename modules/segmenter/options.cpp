@@ -52,6 +52,8 @@ void declare(config::Section& section, SegmenterOptions& options) {
       "pose-network", params.pose_network.enabled,
       "see each person's joints with a network, in the colour image or the lit surface; 10 ms of "
       "CPU a person");
+  section.add("second-pose-network", params.second_pose_network.enabled,
+              "see them with a second network too, which errs elsewhere; 30 ms of CPU a person");
   section.add("range-image-margin-m", params.range_image_margin_m, "m",
               "space kept around a person in the range image", {0.0F, 2.0F});
 }

@@ -343,6 +343,15 @@ struct PoseNetworkParams {
   ShadedSurfaceParams surface;
 };
 
+/// The square of the second network (move_net.hpp). Of the visible joints of stereo_dev/multi it
+/// sees 92.7 % within 10 cm with a side of 2 m, 91.2 % with 2.3 and 89.3 % with 1.8, with true
+/// silhouettes.
+inline const PoseNetworkParams kSecondPoseNetwork = [] {
+  PoseNetworkParams params;
+  params.side_m = 2.0F;
+  return params;
+}();
+
 struct Params {
   SeedSource seeds = SeedSource::kAuto;
   Growing growing = Growing::kRefined;
@@ -366,6 +375,7 @@ struct Params {
   PanoramaParams scan_range_image{150.0F, 4};
   FaceParams faces;
   PoseNetworkParams pose_network;
+  PoseNetworkParams second_pose_network = kSecondPoseNetwork;
   /// Space kept around a cluster in its range image [m].
   float range_image_margin_m = 0.15F;
 };

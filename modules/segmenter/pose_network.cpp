@@ -1,83 +1,20 @@
 #include "modules/segmenter/pose_network.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "modules/segmenter/blaze_pose.hpp"
 #include "modules/segmenter/lattice.hpp"
-#include "modules/segmenter/network.hpp"
+#include "modules/segmenter/move_net.hpp"
 #include "modules/segmenter/range_image.hpp"
 #include "modules/segmenter/shaded_surface.hpp"
-#include "modules/segmenter/tflite_network.hpp"
-
-// The file in pose_network_model.S.
-extern "C" const char limbcast_pose_network[];
 
 namespace limbcast::segmenter {
 namespace {
 
-/// Side of the square that the network takes [px].
-constexpr int kInput_px = 256;
 /// The square may not be wider [px]: so near to the camera its places are no numbers to work with.
 constexpr float kLongestSide_px = 1e5F;
-
-// The network's landmarks (models/README.md).
-constexpr int kLeftEar = 7, kRightEar = 8;
-struct JointLandmark {
-  Joint joint;
-  int landmark;
-};
-constexpr std::array<JointLandmark, 12> kJointLandmarks = {{{Joint::kShoulderLeft, 11},
-                                                            {Joint::kShoulderRight, 12},
-                                                            {Joint::kElbowLeft, 13},
-                                                            {Joint::kElbowRight, 14},
-                                                            {Joint::kWristLeft, 15},
-                                                            {Joint::kWristRight, 16},
-                                                            {Joint::kHipLeft, 23},
-                                                            {Joint::kHipRight, 24},
-                                                            {Joint::kKneeLeft, 25},
-                                                            {Joint::kKneeRight, 26},
-                                                            {Joint::kAnkleLeft, 27},
-                                                            {Joint::kAnkleRight, 28}}};
-
-/// What the network tells of a person, in the pixels of its input.
-struct Landmarks {
-  // Numbers of each landmark: column, row, depth [px], visibility, presence [log odds].
-  static constexpr int kInInput = 5;
-  const float* in_input;
-  // Numbers of each landmark: right, down, away [m], from the middle of the hips.
-  static constexpr int kInWorld = 3;
-  const float* in_world;
-  float score;
-
-  Eigen::Vector2f px(int landmark) const {
-    return {in_input[kInInput * landmark], in_input[kInInput * landmark + 1]};
-  }
-  float visibility(int landmark) const {
-    return probability(in_input[kInInput * landmark + 3]) *
-           probability(in_input[kInInput * landmark + 4]);
-  }
-  float behind_hips_m(int landmark) const { return in_world[kInWorld * landmark + 2]; }
-};
-
-/// The head is where the middle of the ears is; the nearer one is seen.
-ImageJoint head_of(const Landmarks& landmarks) {
-  return {Joint::kHead, 0.5F * (landmarks.px(kLeftEar) + landmarks.px(kRightEar)),
-          std::max(landmarks.visibility(kLeftEar), landmarks.visibility(kRightEar)),
-          0.5F * (landmarks.behind_hips_m(kLeftEar) + landmarks.behind_hips_m(kRightEar))};
-}
-
-ImagePose to_pose(const Landmarks& landmarks, const Eigen::Affine2f& image_from_input) {
-  ImagePose pose;
-  pose.person_score = landmarks.score;
-  pose.joints.push_back(head_of(landmarks));
-  for (const auto& [joint, landmark] : kJointLandmarks)
-    pose.joints.push_back({joint, landmarks.px(landmark), landmarks.visibility(landmark),
-                           landmarks.behind_hips_m(landmark)});
-  for (ImageJoint& joint : pose.joints) joint.px = image_from_input * joint.px;
-  return pose;
-}
 
 /// The part of the image that a square needs; empty where the square lies outside.
 cv::Rect part_around(const UprightSquare& square, const cv::Size& image) {
@@ -114,10 +51,10 @@ cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
 /// middle of somebody who is not too near.
 std::optional<PinholeCamera> camera_towards(const Eigen::Vector3f& middle_m, float side_m) {
   if (!(middle_m.z() > 0.0F)) return std::nullopt;
-  constexpr double kMiddle_px = 0.5 * (kInput_px - 1);
+  constexpr double kMiddle_px = 0.5 * (kPictureSide_px - 1);
   PinholeCamera camera;
-  camera.width = camera.height = kInput_px;
-  camera.fx = camera.fy = kInput_px * middle_m.z() / side_m;
+  camera.width = camera.height = kPictureSide_px;
+  camera.fx = camera.fy = kPictureSide_px * middle_m.z() / side_m;
   camera.cx = kMiddle_px - camera.fx * middle_m.x() / middle_m.z();
   camera.cy = kMiddle_px - camera.fy * middle_m.y() / middle_m.z();
   return camera;
@@ -136,32 +73,14 @@ std::vector<Eigen::Vector3f> points_of(const Cloud& cloud, const LabelledPerson&
 
 }  // namespace
 
-/// The network of one thread: XNNPACK's keeps what it works on.
-class PoseNetwork::Network {
- public:
-  explicit Network(const TfliteFile& file)
-      : network_(file, {"Identity", "Identity_4", "Identity_1"}) {}
-
-  /// The result is this object's until the next call.
-  Landmarks run(const cv::Mat3b& image) {
-    constexpr double kWhite = 255.0;
-    cv::Mat3b rgb;
-    cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
-    cv::Mat3f input(kInput_px, kInput_px, reinterpret_cast<cv::Vec3f*>(network_.input()));
-    rgb.convertTo(input, CV_32F, 1.0 / kWhite);
-    network_.run();
-    return {network_.output(0), network_.output(1), network_.output(2)[0]};
-  }
-
- private:
-  TfliteNetwork network_;
-};
-
-PoseNetwork::PoseNetwork(const PoseNetworkParams& params) : params_(params) {
+PoseNetwork::PoseNetwork(const PoseNetworkParams& params, PictureNetworkKind kind)
+    : params_(params) {
   if (!params.enabled) return;
-  file_ = std::make_unique<TfliteFile>(read_tflite(limbcast_pose_network));
-  networks_ = std::make_unique<InstancePool<Network>>(
-      [file = file_.get()] { return std::make_unique<Network>(*file); });
+  networks_ =
+      std::make_unique<InstancePool<PictureNetwork>>([kind]() -> std::unique_ptr<PictureNetwork> {
+        if (kind == PictureNetworkKind::kMoveNet) return std::make_unique<MoveNet>();
+        return std::make_unique<BlazePose>();
+      });
 }
 
 PoseNetwork::~PoseNetwork() = default;
@@ -175,11 +94,12 @@ std::optional<ImagePose> PoseNetwork::look(const Cloud& cloud, const LabelledPer
   if (part.empty()) return std::nullopt;
   UprightSquare square_in_part = *square;
   square_in_part.center_px -= Eigen::Vector2f(part.x, part.y);
-  const cv::Mat3b input = cut_out(paint_others_over(cloud, person, part), square_in_part, kInput_px,
-                                  cv::BORDER_CONSTANT);
-  return networks_->with([&](Network& network) {
-    return to_pose(network.run(input), image_from_patch(*square, kInput_px));
-  });
+  const cv::Mat3b input = cut_out(paint_others_over(cloud, person, part), square_in_part,
+                                  kPictureSide_px, cv::BORDER_CONSTANT);
+  ImagePose pose = networks_->with([&](PictureNetwork& network) { return network.see(input); });
+  const Eigen::Affine2f image_from_input = image_from_patch(*square, kPictureSide_px);
+  for (ImageJoint& joint : pose.joints) joint.px = image_from_input * joint.px;
+  return pose;
 }
 
 std::optional<ImagePose> PoseNetwork::look_at_surface(const Cloud& cloud,
@@ -194,8 +114,7 @@ std::optional<ImagePose> PoseNetwork::look_at_surface(const Cloud& cloud,
   if (!camera) return std::nullopt;
   const cv::Mat3b picture =
       draw_shaded(points_of(cloud, person, frame_from_picture), *camera, params_.surface);
-  ImagePose pose = networks_->with(
-      [&](Network& network) { return to_pose(network.run(picture), Eigen::Affine2f::Identity()); });
+  ImagePose pose = networks_->with([&](PictureNetwork& network) { return network.see(picture); });
   const Eigen::Matrix3f view_from_picture = view.frame_from_image.transpose() * frame_from_picture;
   const Eigen::Vector2f origin_px(static_cast<float>(view.origin_u),
                                   static_cast<float>(view.origin_v));

@@ -11,7 +11,7 @@
 #include "modules/segmenter/color_patch.hpp"
 #include "modules/segmenter/instance_pool.hpp"
 #include "modules/segmenter/params.hpp"
-#include "modules/segmenter/tflite_file.hpp"
+#include "modules/segmenter/picture_network.hpp"
 
 namespace limbcast::segmenter {
 
@@ -22,12 +22,11 @@ struct LabelledPerson {
   Eigen::Vector3f head_m;                   ///< centre of the head, in the cloud's frame
 };
 
-/// Sees a person's joints with BlazePose (V. Bazarevsky et al., "BlazePose:
-/// On-device Real-time Body Pose tracking", CVPR workshop 2020; models/README.md). Several threads
-/// may use one object.
+/// Sees a person's joints with a network for pictures. Several threads may use one object.
 class PoseNetwork {
  public:
-  explicit PoseNetwork(const PoseNetworkParams& params);
+  explicit PoseNetwork(const PoseNetworkParams& params,
+                       PictureNetworkKind kind = PictureNetworkKind::kBlazePose);
   ~PoseNetwork();
 
   /// In the colour image. `down` is gravity's direction in the cloud's frame. Other people are
@@ -44,15 +43,12 @@ class PoseNetwork {
                                            const RangeImage& view) const;
 
  private:
-  class Network;
-
   std::optional<UprightSquare> square_around(const PinholeCamera& camera,
                                              const Eigen::Vector3f& head_m,
                                              const Eigen::Vector3f& down) const;
 
   PoseNetworkParams params_;
-  std::unique_ptr<TfliteFile> file_;
-  std::unique_ptr<InstancePool<Network>> networks_;
+  std::unique_ptr<InstancePool<PictureNetwork>> networks_;
 };
 
 }  // namespace limbcast::segmenter

@@ -71,6 +71,8 @@ Eigen::Vector3f marked_head(const ImagePose& pose, const PinholeCamera& camera, 
   return camera.back_project(seen->px.x(), seen->px.y(), depth_m);
 }
 
+bool has_image(const Cloud& cloud) { return cloud.organized() && !cloud.colors.empty(); }
+
 /// The camera's own image; of a scan one that shows the place.
 RangeImage view_towards(const Cloud& cloud, const Eigen::Vector3f& place_m,
                         const Eigen::Vector3f& down) {
@@ -93,7 +95,10 @@ void reject(const Rejection& rejection, Segment& segment) {
 }  // namespace
 
 Segmenter::Segmenter(const Params& params)
-    : params_(params), faces_(params.faces), pose_network_(params.pose_network) {}
+    : params_(params),
+      faces_(params.faces),
+      pose_network_(params.pose_network),
+      second_pose_network_(params.second_pose_network, PictureNetworkKind::kMoveNet) {}
 
 Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step) {
   step = std::max(1, static_cast<int>(std::lround(cloud.camera->fx / kLatticeFocal_px)));
@@ -226,7 +231,10 @@ std::vector<HeadCandidate> Segmenter::find_whole_people(const Scene& scene,
     labels = labels_of_cloud(scene, labels);
     const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(head.center_m);
     const RangeImage view = view_towards(scene.cloud, head_m, down);
-    const auto pose = see(scene.cloud, {labels, kThis, head_m}, down, view);
+    const LabelledPerson body{labels, kThis, head_m};
+    const auto pose = has_image(scene.cloud)
+                          ? pose_network_.look(scene.cloud, body, down)
+                          : pose_network_.look_at_surface(scene.cloud, body, down, view);
     if (!pose) continue;
     const float depth_m = view.frame_from_image.col(2).dot(head_m);
     const Eigen::Vector3f marked_m =
@@ -294,15 +302,25 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
       fill_from_scan(source, label, down, params_.scan_range_image.focal_px,
                      params_.scan_range_image.gap_px, segment);
     if (segment.range_image)
-      segment.image_pose = see(scene.cloud, {labels, label, head_m}, down, *segment.range_image);
+      segment.image_poses = see(scene.cloud, {labels, label, head_m}, down, *segment.range_image);
   }
 }
 
-std::optional<ImagePose> Segmenter::see(const Cloud& cloud, const LabelledPerson& person,
-                                        const Eigen::Vector3f& down, const RangeImage& view) const {
-  return cloud.organized() && !cloud.colors.empty()
-             ? pose_network_.look(cloud, person, down)
-             : pose_network_.look_at_surface(cloud, person, down, view);
+std::vector<ImagePose> Segmenter::see(const Cloud& cloud, const LabelledPerson& person,
+                                      const Eigen::Vector3f& down, const RangeImage& view) const {
+  std::vector<ImagePose> poses;
+  const auto add = [&](std::optional<ImagePose> pose) {
+    if (pose) poses.push_back(std::move(*pose));
+  };
+  if (!has_image(cloud)) {
+    // The second network takes the stripes of few rings for limbs.
+    add(pose_network_.look_at_surface(cloud, person, down, view));
+    return poses;
+  }
+  add(pose_network_.look(cloud, person, down));
+  // Alone it would be taken for the first.
+  if (!poses.empty()) add(second_pose_network_.look(cloud, person, down));
+  return poses;
 }
 
 Segments segment(const Cloud& cloud, const Params& params) {

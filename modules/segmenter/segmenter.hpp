@@ -61,8 +61,8 @@ class Segmenter {
                                             const std::vector<std::int16_t>& labels) const;
   /// What the network of poses sees of a person: in the colours, or where there are none in the
   /// surface, then in the pixels of `view`.
-  std::optional<ImagePose> see(const Cloud& cloud, const LabelledPerson& person,
-                               const Eigen::Vector3f& down, const RangeImage& view) const;
+  std::vector<ImagePose> see(const Cloud& cloud, const LabelledPerson& person,
+                             const Eigen::Vector3f& down, const RangeImage& view) const;
   void fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
                      Segments& result) const;
 
@@ -71,7 +71,7 @@ class Segmenter {
   HeadClassifier classifier_;
   BodyClassifier bodies_;
   FaceFinder faces_;
-  PoseNetwork pose_network_;
+  PoseNetwork pose_network_, second_pose_network_;
   SurfaceClassifier surfaces_;
 };
 

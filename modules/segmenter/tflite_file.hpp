@@ -17,6 +17,7 @@ enum class TfliteKind : std::int32_t {
   kSigmoid = 14,
   kMaxPool = 17,
   kReshape = 22,
+  kResizeBilinear = 23,
   kPad = 34
 };
 

@@ -87,6 +87,8 @@ class Subgraph {
                      "take the sigmoid in");
       case TfliteKind::kReshape:
         return add_reshape(step);
+      case TfliteKind::kResizeBilinear:
+        return add_resize(step);
       case TfliteKind::kPad:
         return add_padding(step);
       default:
@@ -148,6 +150,13 @@ class Subgraph {
     check(xnn_define_static_reshape(subgraph_, shape.size(), shape.data(), input(step, 0),
                                     value(step.output), kNoFlags),
           "reshape in");
+  }
+
+  void add_resize(const TfliteStep& step) {
+    const auto& shape = file_.tensors.at(step.output).shape;
+    check(xnn_define_static_resize_bilinear_2d(subgraph_, shape.at(1), shape.at(2), input(step, 0),
+                                               value(step.output), kNoFlags),
+          "resize in");
   }
 
   void add_padding(const TfliteStep& step) {

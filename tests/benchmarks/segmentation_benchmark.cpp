@@ -68,15 +68,18 @@ void look_for_a_face(benchmark::State& state, float below_m) {
 BENCHMARK_CAPTURE(look_for_a_face, face, 0.0F)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(look_for_a_face, no_face, 0.5F)->Unit(benchmark::kMillisecond);
 
-/// The pose network at the first person.
-void see_joints(benchmark::State& state) {
-  const PoseNetwork network({});
+/// A network of poses at the first person.
+void see_joints(benchmark::State& state, const PoseNetworkParams& params, PictureNetworkKind kind) {
+  const PoseNetwork network(params, kind);
   const std::vector<std::int16_t> labels(cloud().points_m.size(), kNobody);
   for (auto _ : state)
     benchmark::DoNotOptimize(
         network.look(cloud(), {labels, 0, seed_m()}, cloud().stamp.gravity.down));
 }
-BENCHMARK(see_joints)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(see_joints, blaze_pose, PoseNetworkParams{}, PictureNetworkKind::kBlazePose)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(see_joints, move_net, kSecondPoseNetwork, PictureNetworkKind::kMoveNet)
+    ->Unit(benchmark::kMillisecond);
 
 using MakeSearch = std::unique_ptr<NeighborSearch> (*)(const Cloud&);
 

@@ -97,9 +97,11 @@ TEST(CodecMessages, KeepEveryFieldOfASegment) {
   EXPECT_EQ(segment.seed_score, 0.7F);
   EXPECT_EQ(segment.face.facing_log_odds, 2.5F);
   EXPECT_EQ(segment.face.looks_right_log_odds, -1.5F);
-  EXPECT_EQ(segment.image_pose->person_score, 0.6F);
-  ASSERT_EQ(segment.image_pose->joints.size(), 2U);
-  const ImageJoint& joint = segment.image_pose->joints[1];
+  ASSERT_EQ(segment.image_poses.size(), 2U);
+  EXPECT_EQ(segment.image_poses[1].person_score, 0.5F);
+  EXPECT_EQ(segment.image_poses[0].person_score, 0.6F);
+  ASSERT_EQ(segment.image_poses[0].joints.size(), 2U);
+  const ImageJoint& joint = segment.image_poses[0].joints[1];
   EXPECT_EQ(joint.joint, Joint::kAnkleRight);
   EXPECT_EQ(joint.px, Eigen::Vector2f(30.0F, 700.0F));
   EXPECT_EQ(joint.visibility, 0.1F);

@@ -116,7 +116,7 @@ TEST(CodecRefusals, NameWhatIsWrongWithAPersonOfAnImage) {
   expect_refused<Message>(
       segments_message(),
       {{[=](Message& m) { m.segments[0].image_poses.push_back(pose(m)); },
-        "more than one person of the image"},
+        "too many poses of a person in the image"},
        {[=](Message& m) { pose(m).person_score = -0.1F; }, score},
        {[=](Message& m) { pose(m).person_score = 1.1F; }, score},
        {[=](Message& m) { pose(m).person_score = kNaN; }, score},

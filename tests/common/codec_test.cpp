@@ -304,7 +304,7 @@ TEST(SegmentsCodec, GivesPointsWindowAndRejectionBack) {
   EXPECT_EQ(back.segments[0].is_skin, segments.segments[0].is_skin);
   EXPECT_EQ(back.segments[0].range_image->labels, segments.segments[0].range_image->labels);
   EXPECT_EQ(back.segments[0].range_image->depth_m, segments.segments[0].range_image->depth_m);
-  EXPECT_FALSE(back.segments[0].image_pose);
+  EXPECT_TRUE(back.segments[0].image_poses.empty());
   EXPECT_EQ(back.segments[1].rejected_by, SegmentFilter::kTooFewPoints);
   EXPECT_EQ(back.segments[1].filter_figure, 12.0F);
   EXPECT_EQ(back.segments[1].points_m.size(), 1U);

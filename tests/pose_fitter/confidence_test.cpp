@@ -43,10 +43,10 @@ TEST_F(Confidence, OfADirectionFallsWhereTheArmExplainsLittle) {
 }
 
 TEST_F(Confidence, OfAJointFallsWhereTheImageShowsItElsewhere) {
-  evidence_.image.told = true;
-  evidence_.image.visibility.fill(1.0);
+  evidence_.images[0].told = true;
+  evidence_.images[0].visibility.fill(1.0);
   const Real before = joint_confidence(evidence_, kWrist);
-  evidence_.image.disagreement[kWrist] = 1.0;
+  evidence_.images[0].disagreement[kWrist] = 1.0;
   EXPECT_LT(joint_confidence(evidence_, kWrist), before);
 }
 

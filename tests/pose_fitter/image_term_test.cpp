@@ -10,14 +10,19 @@
 namespace limbcast::pose_fitter::refined {
 namespace {
 
-/// A body that faces the camera, and an image that shows each of its joints where it is.
+/// A body that faces the camera, and a network that sees each of its joints where it is.
 class ImageTerm : public ::testing::Test {
  protected:
-  ImageTerm() {
-    observation_.has_image_pose = true;
-    observation_.image_person_score = 0.9;
+  ImageTerm() { observation_.looks = {look_of(body_, ImageNetwork::kBlazePose)}; }
+
+  static ImageLook look_of(const BodyState& body, ImageNetwork network) {
+    ImageLook look;
+    look.network = network;
+    look.weight = 2.0;
+    look.person_score = 0.9;
     for (int joint = 0; joint < kJointCount; ++joint)
-      observation_.seen_joints[joint] = {marked_place(body_, joint).normalized(), 1.0};
+      look.joints[joint] = {marked_place(body, joint, network).normalized(), 1.0};
+    return look;
   }
 
   Real cost(const BodyState& body, unsigned parts = kAllParts) const {
@@ -32,7 +37,12 @@ class ImageTerm : public ::testing::Test {
   }
   void take_left_for_right() {
     for (int joint = kShoulder; joint < kJointCount; joint += 2)
-      std::swap(observation_.seen_joints[joint], observation_.seen_joints[joint + 1]);
+      std::swap(look().joints[joint], look().joints[joint + 1]);
+  }
+
+  ImageLook& look() { return observation_.looks.front(); }
+  ImageEvidence evidence_of(const BodyState& body) const {
+    return image_evidence(body, observation_, params_).front();
   }
 
   const BodyState body_ = testing::standing_body(2.5, 0.0);
@@ -44,7 +54,7 @@ class ImageTerm : public ::testing::Test {
 TEST_F(ImageTerm, CostsNothingOnTheRays) { EXPECT_NEAR(cost(body_), 0.0, 1e-9); }
 
 TEST_F(ImageTerm, CostsNothingAlongARay) {
-  const Vec3 ray = marked_place(body_, kWrist).normalized();
+  const Vec3 ray = marked_place(body_, kWrist, look().network).normalized();
   EXPECT_NEAR(cost(with_wrist_moved(0.3 * ray)), 0.0, 1e-9);
 }
 
@@ -56,8 +66,7 @@ TEST_F(ImageTerm, CostsMoreTheFartherAJointStandsOffItsRay) {
 }
 
 TEST_F(ImageTerm, CostsNoMoreThanItsLimitForAJointThatIsMarkedElsewhere) {
-  const Real limit =
-      0.5 * params_.image_weight * params_.image_limit_sigmas * params_.image_limit_sigmas;
+  const Real limit = 0.5 * look().weight * params_.image_limit_sigmas * params_.image_limit_sigmas;
   const Real cost_m = cost(with_wrist_moved({1.0, 0.0, 0.0}));
   EXPECT_LT(cost_m, limit);
   EXPECT_GT(cost_m, 0.9 * limit);
@@ -66,7 +75,7 @@ TEST_F(ImageTerm, CostsNoMoreThanItsLimitForAJointThatIsMarkedElsewhere) {
 TEST_F(ImageTerm, CountsAJointAsSurelyAsItIsSeen) {
   const BodyState moved = with_wrist_moved({0.1, 0.0, 0.0});
   const Real sure = cost(moved);
-  observation_.seen_joints[kWrist].visibility = 0.25;
+  look().joints[kWrist].visibility = 0.25;
   EXPECT_NEAR(cost(moved), 0.25 * sure, 1e-9);
 }
 
@@ -87,28 +96,44 @@ TEST_F(ImageTerm, TellsTheSolverWhereToGo) {
 }
 
 TEST_F(ImageTerm, CostsAFixedSumWhereTheImageTakesLeftForRight) {
-  EXPECT_FALSE(image_takes_sides_otherwise(body_, observation_, kAllParts, params_));
+  EXPECT_FALSE(takes_sides_otherwise(body_, look(), kAllParts, params_));
   take_left_for_right();
-  EXPECT_TRUE(image_takes_sides_otherwise(body_, observation_, kAllParts, params_));
+  EXPECT_TRUE(takes_sides_otherwise(body_, look(), kAllParts, params_));
   EXPECT_NEAR(cost(body_), params_.image_swap_cost, 1e-9);
 }
 
 TEST_F(ImageTerm, TellsHowFarTheBodyAgrees) {
-  const ImageEvidence agrees = image_evidence(body_, observation_, params_);
+  const ImageEvidence agrees = evidence_of(body_);
   EXPECT_TRUE(agrees.told);
   EXPECT_FALSE(agrees.sides_swapped);
   EXPECT_NEAR(agrees.person_score, 0.9, 1e-9);
   EXPECT_NEAR(agrees.disagreement[kWrist], 0.0, 1e-9);
-  const ImageEvidence differs =
-      image_evidence(with_wrist_moved({0.5, 0.0, 0.0}), observation_, params_);
+  const ImageEvidence differs = evidence_of(with_wrist_moved({0.5, 0.0, 0.0}));
   EXPECT_GT(differs.disagreement[kWrist], 0.9);
   EXPECT_NEAR(differs.disagreement[kElbow], 0.0, 1e-9);
 }
 
+TEST_F(ImageTerm, TakesWhichNetworkTheBodyAgreesWithWhereTheyDiffer) {
+  const BodyState other = with_wrist_moved({0.5, 0.0, 0.0}),
+                  between = with_wrist_moved({0.25, 0.0, 0.0});
+  observation_.looks.push_back(look_of(other, ImageNetwork::kMoveNet));
+  EXPECT_LT(cost(body_), cost(between));
+  EXPECT_LT(cost(other), cost(between));
+}
+
+TEST_F(ImageTerm, CountsTheSidesOfEachNetworkByItself) {
+  observation_.looks.push_back(look_of(body_, ImageNetwork::kMoveNet));
+  take_left_for_right();
+  EXPECT_NEAR(cost(body_), params_.image_swap_cost, 1e-9);
+  const auto evidence = image_evidence(body_, observation_, params_);
+  EXPECT_TRUE(evidence[0].sides_swapped);
+  EXPECT_FALSE(evidence[1].sides_swapped);
+}
+
 TEST_F(ImageTerm, TellsNothingWithoutAnImage) {
-  observation_.has_image_pose = false;
+  observation_.looks.clear();
   EXPECT_EQ(cost(with_wrist_moved({0.5, 0.0, 0.0})), 0.0);
-  EXPECT_FALSE(image_evidence(body_, observation_, params_).told);
+  EXPECT_FALSE(evidence_of(body_).told);
 }
 
 }  // namespace

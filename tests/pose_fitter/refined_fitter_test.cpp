@@ -33,7 +33,8 @@ ImagePose in_image(const BodyState& body) {
   ImagePose pose{1.0F, {}};
   const float hips_z_m = static_cast<float>(body.points[index(Joint::kPelvis)].z());
   for (int joint = 0; joint < kJointCount; ++joint) {
-    const Eigen::Vector3f place_m = refined::marked_place(body, joint).cast<float>();
+    const Eigen::Vector3f place_m =
+        refined::marked_place(body, joint, refined::ImageNetwork::kBlazePose).cast<float>();
     pose.joints.push_back({static_cast<Joint>(joint), testing::camera().project(place_m), 1.0F,
                            place_m.z() - hips_z_m});
   }
@@ -138,7 +139,7 @@ Segment colored(Segment segment) {
 TEST(RefinedFitter, TurnsABodyToTheSideThatTheImageShows) {
   const auto left_behind_m = [](double image_yaw_deg) {
     Segment segment = colored(testing::seen(testing::standing_body(2.5, 90.0 * kDegree)));
-    segment.image_pose = in_image(testing::standing_body(2.5, image_yaw_deg * kDegree));
+    segment.image_poses = {in_image(testing::standing_body(2.5, image_yaw_deg * kDegree))};
     RefinedParams params;
     // Surer than any network, so that it is told what the image shows, however well the shape fits.
     params.image_side_log_odds = 40.0;
@@ -267,7 +268,7 @@ TEST(RefinedCost, MindsATrunkTurnedAgainstTheFace) {
 TEST(RefinedCost, MindsNoTrunkWhoseSurfaceAloneWasLookedAt) {
   const RefinedParams params;
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
-  segment.image_pose = in_image(testing::standing_body(2.5, 90.0 * kDegree));
+  segment.image_poses = {in_image(testing::standing_body(2.5, 90.0 * kDegree))};
   const auto observation = refined::observe(segment, testing::stamp(), params);
   EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);
 }
@@ -277,7 +278,7 @@ TEST(RefinedCost, MindsATrunkTurnedAgainstTheImage) {
   const double most = params.front_cost_per_log_odds * params.image_side_log_odds;
   const auto cost_at = [&](double yaw_deg, double image_yaw_deg) {
     Segment segment = colored(testing::seen(testing::standing_body(2.5, 0.0)));
-    segment.image_pose = in_image(testing::standing_body(2.5, image_yaw_deg * kDegree));
+    segment.image_poses = {in_image(testing::standing_body(2.5, image_yaw_deg * kDegree))};
     const auto observation = refined::observe(segment, testing::stamp(), params);
     return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
   };
@@ -291,8 +292,8 @@ TEST(RefinedCost, MindsATrunkTurnedAgainstTheImage) {
 
 TEST(RefinedCost, MindsNoTrunkWhereTheImageTellsNoSides) {
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
-  segment.image_pose = in_image(testing::standing_body(2.5, 90.0 * kDegree));
-  for (ImageJoint& joint : segment.image_pose->joints) joint.visibility = 0.0F;
+  segment.image_poses = {in_image(testing::standing_body(2.5, 90.0 * kDegree))};
+  for (ImageJoint& joint : segment.image_poses.front().joints) joint.visibility = 0.0F;
   const RefinedParams params;
   const auto observation = refined::observe(segment, testing::stamp(), params);
   EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);

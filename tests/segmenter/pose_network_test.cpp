@@ -50,9 +50,15 @@ class JointsOfTheDemo : public ::testing::Test {
       std::vector<std::int16_t>(cloud_.points_m.size(), kNobody);
 };
 
-TEST_F(JointsOfTheDemo, AreSeenWhereTheyAre) {
+class NetworkAndJointsOfTheDemo : public JointsOfTheDemo,
+                                  public ::testing::WithParamInterface<PictureNetworkKind> {};
+
+TEST_P(NetworkAndJointsOfTheDemo, AreSeenWhereTheyAre) {
   constexpr float kNear_m = 0.10F;
-  const ImagePose pose = look(cloud_, head_m_).value();
+  const PoseNetworkParams params =
+      GetParam() == PictureNetworkKind::kMoveNet ? kSecondPoseNetwork : PoseNetworkParams{};
+  const ImagePose pose =
+      PoseNetwork(params, GetParam()).look(cloud_, {nobody_, kNobody, head_m_}, down_).value();
   ASSERT_EQ(pose.joints.size(), 13U);
   for (const ImageJoint& joint : pose.joints) {
     const JointEstimate& truth = person_[joint.joint];
@@ -63,6 +69,10 @@ TEST_F(JointsOfTheDemo, AreSeenWhereTheyAre) {
     EXPECT_GT(joint.visibility, 0.5F) << kJointNames[index(joint.joint)];
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Both, NetworkAndJointsOfTheDemo,
+                         ::testing::Values(PictureNetworkKind::kBlazePose,
+                                           PictureNetworkKind::kMoveNet));
 
 TEST_F(JointsOfTheDemo, AreToldBeforeAndBehindTheHips) {
   constexpr float kNear_m = 0.12F;  // of the trunk; arms are often wrong
@@ -121,8 +131,9 @@ TEST_F(JointsOfTheDemo, AreToldOfThePeopleAndNotOfWhatIsRejected) {
   EXPECT_GE(
       std::count_if(segments.begin(), segments.end(), [](const Segment& s) { return s.valid(); }),
       1);
-  for (const Segment& found : segments) EXPECT_EQ(found.image_pose.has_value(), found.valid());
-  EXPECT_GT(segments.at(0).image_pose->person_score, 0.9F);
+  for (const Segment& found : segments)
+    EXPECT_EQ(found.image_poses.size(), found.valid() ? 2U : 0U);
+  EXPECT_GT(segments.at(0).image_poses.at(0).person_score, 0.9F);
 }
 
 TEST_F(JointsOfTheDemo, AreNotSeenInColorsThatAreNone) {
@@ -136,7 +147,7 @@ TEST_F(JointsOfTheDemo, AreSeenInTheSurfaceWithoutColor) {
   for (const bool hangs_sideways : {false, true}) {
     Cloud colorless = hangs_sideways ? turned(cloud_) : cloud_;
     colorless.colors.clear();
-    const ImagePose pose = segment(colorless).segments.at(0).image_pose.value();
+    const ImagePose pose = segment(colorless).segments.at(0).image_poses.at(0);
     EXPECT_GT(pose.person_score, 0.9F);
     // Sides are a guess; these are not.
     const Eigen::Vector2f hips_px =
@@ -161,7 +172,15 @@ TEST_F(JointsOfTheDemo, AreNotToldInACloudThatIsNoCameras) {
 TEST_F(JointsOfTheDemo, AreNotToldWhereNobodyWantsThem) {
   Params params;
   params.pose_network.enabled = false;
-  EXPECT_FALSE(Segmenter(params).segment(cloud_).segments.at(0).image_pose);
+  EXPECT_TRUE(Segmenter(params).segment(cloud_).segments.at(0).image_poses.empty());
+}
+
+TEST_F(JointsOfTheDemo, AreToldOfTheFirstNetworkAloneWhereTheSecondIsNotWanted) {
+  Params params;
+  params.second_pose_network.enabled = false;
+  const auto poses = Segmenter(params).segment(cloud_).segments.at(0).image_poses;
+  ASSERT_EQ(poses.size(), 1U);
+  EXPECT_TRUE(tell_the_same(poses[0], segment(cloud_).segments.at(0).image_poses.at(0)));
 }
 
 TEST_F(JointsOfTheDemo, AreNotToldOfAPersonTooSmallToSee) {

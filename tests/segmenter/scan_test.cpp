@@ -193,7 +193,7 @@ TEST_P(StandingPerson, HasJointsThatTheNetworkSeesInTheSurface) {
   const ScannedPerson person = scanned_person("stand", GetParam());
   const Segments cut = Segmenter().cut_out_people(person.cloud, {person.head_m()});
   ASSERT_EQ(cut.segments.size(), 1U);
-  const ImagePose pose = cut.segments[0].image_pose.value();
+  const ImagePose pose = cut.segments[0].image_poses.at(0);
   const RangeImage& view = cut.segments[0].range_image.value();
   EXPECT_GT(pose.person_score, 0.9F);
   for (const Joint left : {Joint::kShoulderLeft, Joint::kHipLeft}) {

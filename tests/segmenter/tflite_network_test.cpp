@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-// The pose network's file (pose_network_model.S).
-extern "C" const char limbcast_pose_network[];
+#include "modules/segmenter/blaze_pose.hpp"
+#include "modules/segmenter/move_net.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -111,29 +111,36 @@ TEST(TfliteNetwork, TakesTheSigmoidAndReshapes) {
   EXPECT_THAT(network.run({0.0F, std::log(3.0F)}, 2), ElementsAre(0.5F, FloatEq(0.75F)));
 }
 
+TEST(TfliteNetwork, ResizesBetweenTheMiddlesOfPixels) {
+  SmallNetwork network({1, 1, 2, 1});
+  network.add_step(TfliteKind::kResizeBilinear, {0}, {1, 2, 4, 1});
+  EXPECT_THAT(network.run({0.0F, 4.0F}, 8),
+              ElementsAre(0.0F, 1.0F, 3.0F, 4.0F, 0.0F, 1.0F, 3.0F, 4.0F));
+}
+
 TEST(TfliteNetwork, RefusesAStepThatItDoesNotKnow) {
-  // The mask of the person needs images resized.
-  const TfliteFile file = read_tflite(limbcast_pose_network);
+  SmallNetwork network({1, 1, 1, 1});
+  constexpr int kRankOfAMatrix = 110;
+  network.add_step(static_cast<TfliteKind>(kRankOfAMatrix), {0}, {1});
   try {
-    const TfliteNetwork network(file, {"Identity_2"});
+    network.run({1.0F}, 1);
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("kind that is not known (23)"));
+    EXPECT_THAT(error.what(), HasSubstr("kind that is not known (110)"));
   }
 }
 
 TEST(TfliteNetwork, RefusesAnOutputThatTheFileLacks) {
-  const TfliteFile file = read_tflite(limbcast_pose_network);
   try {
-    const TfliteNetwork network(file, {"Identity", "hands"});
+    const TfliteNetwork network(BlazePose::file(), {"Identity", "hands"});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("no output hands"));
   }
 }
 
-TEST(TfliteFile, HoldsThePoseNetwork) {
-  const TfliteFile file = read_tflite(limbcast_pose_network);
+TEST(TfliteFile, HoldsBlazePose) {
+  const TfliteFile& file = BlazePose::file();
   EXPECT_THAT(file.tensors.at(file.input).shape, ElementsAre(1, 256, 256, 3));
   std::vector<std::string> outputs;
   for (const std::uint32_t output : file.outputs) outputs.push_back(file.tensors.at(output).name);
@@ -151,6 +158,17 @@ TEST(TfliteFile, HoldsThePoseNetwork) {
   const TfliteTensor& filter = file.tensors.at(first->inputs.at(1));
   EXPECT_THAT(filter.shape, ElementsAre(24, 3, 3, 3));
   EXPECT_EQ(filter.numbers.size(), 24U * 27U) << "16 bits in the file";
+}
+
+TEST(TfliteFile, HoldsMoveNet) {
+  const TfliteFile& file = MoveNet::file();
+  EXPECT_THAT(file.tensors.at(file.input).shape, ElementsAre(1, 256, 256, 3));
+  std::vector<std::string> outputs;
+  for (const std::uint32_t output : file.outputs) {
+    outputs.push_back(file.tensors.at(output).name);
+    EXPECT_EQ(file.tensors.at(output).shape.at(1), 64U);
+  }
+  EXPECT_THAT(outputs, ElementsAre("center", "heatmap", "regression", "offset"));
 }
 
 }  // namespace

@@ -67,8 +67,13 @@ std::vector<ArmPosture> best_different(const std::vector<ArmPosture>& found, int
 
 }  // namespace
 
+struct ArmSearch::SeenArm {
+  const ImageLook& look;
+  int side;  ///< of the arm, as the network takes the sides
+};
+
 struct ArmSearch::Frame {
-  Frame(const BodyState& body, int side, int seen_side)
+  Frame(const BodyState& body, int side)
       : body_rotation(body.rotation),
         shoulder(body.points[kShoulder + side]),
         neck(body.points[kNeck]),
@@ -76,8 +81,7 @@ struct ArmSearch::Frame {
         up(body.rotation.col(1)),
         front(body.front()),
         stature(body.stature_m()),
-        sign(side_sign(side)),
-        image_side(seen_side) {}
+        sign(side_sign(side)) {}
 
   /// Upper arms do not go far across the body or behind it.
   bool upper_arm_possible(const Vec3& direction) const {
@@ -94,7 +98,7 @@ struct ArmSearch::Frame {
   Mat3 body_rotation;
   Vec3 shoulder, neck, outwards, up, front;
   Real stature, sign;
-  int image_side;  ///< of the arm, as the image takes the sides
+  std::vector<SeenArm> seen;  ///< the arm as each network sees it
 };
 
 ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params)
@@ -152,8 +156,12 @@ Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
 }
 
 Real ArmSearch::image_cost_of(const Frame& arm, const Vec3& elbow, const Vec3& wrist) const {
-  return image_cost(observation_.seen_joints[kElbow + arm.image_side], elbow, params_) +
-         image_cost(observation_.seen_joints[kWrist + arm.image_side], wrist, params_);
+  Real cost = 0.0;
+  for (const SeenArm& seen : arm.seen) {
+    cost += image_cost(seen.look, kElbow + seen.side, elbow, params_) +
+            image_cost(seen.look, kWrist + seen.side, wrist, params_);
+  }
+  return cost;
 }
 
 void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) const {
@@ -222,8 +230,8 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
   }
 }
 
-void ArmSearch::reach_seen_wrist(const Frame& arm, std::vector<ArmPosture>& found) const {
-  const SeenJoint& seen = observation_.seen_joints[kWrist + arm.image_side];
+void ArmSearch::reach_seen_wrist(const Frame& arm, const SeenJoint& seen,
+                                 std::vector<ArmPosture>& found) const {
   if (seen.visibility <= 0.0) return;
   const PinholeCamera& camera = observation_.camera;
   const int u = cvRound(camera.fx * seen.ray.x() / seen.ray.z() + camera.cx);
@@ -244,7 +252,8 @@ void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) co
   const std::size_t step = std::max<std::size_t>(1, unexplained.size() / kReachTargets);
   for (std::size_t i = 0; i < unexplained.size(); i += step)
     reach(arm, point(unexplained[i]), found);
-  reach_seen_wrist(arm, found);
+  for (const SeenArm& seen : arm.seen)
+    reach_seen_wrist(arm, seen.look.joints[kWrist + seen.side], found);
   const std::size_t all_step = std::max<std::size_t>(1, grid_points_.size() / kReachTargets);
   for (std::size_t i = all_step / 2; i < grid_points_.size(); i += all_step)
     reach(arm, point(i), found);
@@ -253,8 +262,11 @@ void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) co
 std::vector<ArmPosture> ArmSearch::postures(const BodyState& body, int side, unsigned explained,
                                             int count) {
   mark_unexplained(body, explained);
-  const bool swapped = image_takes_sides_otherwise(body, observation_, bit(Part::kTrunk), params_);
-  const Frame arm(body, side, swapped ? 1 - side : side);
+  Frame arm(body, side);
+  for (const ImageLook& look : observation_.looks) {
+    const bool swapped = takes_sides_otherwise(body, look, bit(Part::kTrunk), params_);
+    arm.seen.push_back({look, swapped ? 1 - side : side});
+  }
   std::vector<ArmPosture> found;
   by_directions(arm, found);
   by_reaching(arm, found);

@@ -23,12 +23,14 @@ class ArmSearch {
   std::vector<ArmPosture> postures(const BodyState& body, int side, unsigned explained, int count);
 
  private:
+  struct SeenArm;
   struct Frame;
   void mark_unexplained(const BodyState& body, unsigned explained);
   Real sample_cost(const Vec3& center, Real radius) const;
   void by_directions(const Frame& arm, std::vector<ArmPosture>& found) const;
   void by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const;
-  void reach_seen_wrist(const Frame& arm, std::vector<ArmPosture>& found) const;
+  void reach_seen_wrist(const Frame& arm, const SeenJoint& seen,
+                        std::vector<ArmPosture>& found) const;
   Real image_cost_of(const Frame& arm, const Vec3& elbow, const Vec3& wrist) const;
   void reach(const Frame& arm, const Vec3& wrist_surface, std::vector<ArmPosture>& found) const;
 

@@ -41,6 +41,9 @@ Real image_visibility(const ImageEvidence& image, int first, int end, int step =
   return sum / count;
 }
 
+/// Whether any network looked: the second never does alone.
+bool is_told(const Evidence& evidence) { return evidence.images.front().told; }
+
 /// Mean over the points from `first` to before `end`.
 Real mean_log_sigma(const Evidence& evidence, int first, int end) {
   Real sum = 0.0;
@@ -63,28 +66,33 @@ Real probability(const Features<count>& features, const Real (&coefficients)[cou
 JointFeatures joint_features(const Evidence& evidence, int joint) {
   const bool lower_arm = of_lower_arm(joint);
   JointFeatures features;
-  features << 1.0, std::log(std::max(kLeastSigmaM, evidence.sigma_m[joint])),
+  auto list = features << 1.0;
+  list, std::log(std::max(kLeastSigmaM, evidence.sigma_m[joint])),
       evidence.in_sight[joint] ? 1.0 : 0.0, odd_posture(evidence), surface_misfit(evidence),
       lower_arm ? 1.0 : 0.0, lower_arm ? strength(evidence.arms[(joint - kElbow) % 2].gap) : 0.0,
       on_axis(joint) ? 1.0 : 0.0, on_axis(joint) ? 0.0 : strength(evidence.flip_gap),
-      evidence.image.told ? 1.0 : 0.0, evidence.image.visibility[joint],
-      evidence.image.visibility[joint] * evidence.image.disagreement[joint],
-      evidence.image.sides_swapped && !on_axis(joint) ? 1.0 : 0.0;
+      is_told(evidence) ? 1.0 : 0.0;
+  for (const ImageEvidence& image : evidence.images) {
+    list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint],
+        image.sides_swapped && !on_axis(joint) ? 1.0 : 0.0;
+  }
   return features;
 }
 
 DirectionFeatures direction_features(const BodyState& body, int side, const Evidence& evidence) {
   const ArmEvidence& arm = evidence.arms[side];
-  const ImageEvidence& image = evidence.image;
   // The cost is per area of skin, of which a child has less.
   const Real size = kReferenceStatureM / body.stature_m();
   DirectionFeatures features;
-  features << 1.0, std::clamp(arm.gap * size * size, 0.0, kMostGap), strength(arm.support),
+  auto list = features << 1.0;
+  list, std::clamp(arm.gap * size * size, 0.0, kMostGap), strength(arm.support),
       std::log(std::max(kLeastSigmaDeg, arm.sigma_rad * kDegreesPerRadian<Real>)), arm.bend_rad,
       odd_posture(evidence), std::min(1.0, surface_misfit(evidence)), arm.forwards,
-      std::max(0.0, -arm.outwards), image.told ? 1.0 : 0.0,
-      image_visibility(image, kShoulder + side, kHip, 2),
-      image_disagreement(image, kShoulder + side, kHip, 2), image.sides_swapped ? 1.0 : 0.0;
+      std::max(0.0, -arm.outwards), is_told(evidence) ? 1.0 : 0.0;
+  for (const ImageEvidence& image : evidence.images) {
+    list, image_visibility(image, kShoulder + side, kHip, 2),
+        image_disagreement(image, kShoulder + side, kHip, 2), image.sides_swapped ? 1.0 : 0.0;
+  }
   return features;
 }
 
@@ -101,10 +109,13 @@ PersonFeatures person_features(const FittedBody& fitted) {
       person.bottom_m, person.ankle_height_m, person.noise_m, person.head_moved_m,
       person.outside_share, person.trunk_upright, person.neck_upright, person.thighs_upright,
       person.shins_upright, person.face_log_odds, person.guessed_head ? 1.0 : 0.0;
-  const ImageEvidence& image = evidence.image;
-  list, image.told ? 1.0 : 0.0, image.person_score, image.sides_swapped ? 1.0 : 0.0,
-      image_visibility(image, kShoulder, kJointCount), image_disagreement(image, kShoulder, kElbow),
-      image_disagreement(image, kElbow, kHip), image_disagreement(image, kHip, kJointCount);
+  list, is_told(evidence) ? 1.0 : 0.0;
+  for (const ImageEvidence& image : evidence.images) {
+    list, image.person_score, image.sides_swapped ? 1.0 : 0.0,
+        image_visibility(image, kShoulder, kJointCount),
+        image_disagreement(image, kShoulder, kElbow), image_disagreement(image, kElbow, kHip),
+        image_disagreement(image, kHip, kJointCount);
+  }
   list, fitted.body.log_girth, odd_posture(evidence), surface_misfit(evidence),
       mean_log_sigma(evidence, kHead, kShoulder), mean_log_sigma(evidence, kShoulder, kJointCount),
       strength(evidence.shape_flip_gap),

@@ -9,9 +9,9 @@ namespace limbcast::pose_fitter::refined {
 
 template <int count>
 using Features = Eigen::Matrix<Real, count, 1>;
-using JointFeatures = Features<13>;
-using DirectionFeatures = Features<13>;
-using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 35, 1>;
+using JointFeatures = Features<16>;
+using DirectionFeatures = Features<16>;
+using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 41, 1>;
 
 /// What tells that a joint is within 10 cm.
 JointFeatures joint_features(const Evidence& evidence, int joint);

@@ -148,7 +148,7 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
         in_sight(observation, body.points[i], kPointRadius[i] * body.stature_m());
   }
   evidence.weight = weight_of(*stage.points);
-  evidence.image = image_evidence(body, observation, solver.params());
+  evidence.images = image_evidence(body, observation, solver.params());
 
   evidence.flip_gap = flip_gap(candidates, [](const PoseCandidate& pose) { return pose.cost; });
   evidence.shape_flip_gap = flip_gap(candidates, [&](const PoseCandidate& pose) {

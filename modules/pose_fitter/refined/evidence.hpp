@@ -24,7 +24,7 @@ struct Evidence {
   Real shape_flip_gap = 0.0;  ///< the same without what `front_cost` tells
   Real weight = 0.0;          ///< of all points
   Real head_odds = 0.0;       ///< logarithm of the odds that the segment began at a head
-  ImageEvidence image;
+  std::array<ImageEvidence, kImageNetworkCount> images;  ///< of each network
   Real surface_cost = 0.0, prior_cost = 0.0;
   std::array<Real, kPointCount> sigma_m{};   ///< of each point along its worst axis
   std::array<bool, kPointCount> in_sight{};  ///< nothing seen before it, in the image

@@ -40,9 +40,12 @@ Real face_disagreement(const Vec3& front, const View& view, const FaceEvidence& 
 /// network's own depths. Zero where none is told.
 Vec3 leftwards_in_image(const Observation& observation, const View& view) {
   Vec3 leftwards = Vec3::Zero();
+  // The second network tells no depths.
+  if (observation.looks.empty()) return leftwards;
+  const auto& joints = observation.looks.front().joints;
   for (const int pair : {static_cast<int>(kShoulder), static_cast<int>(kHip)}) {
-    const SeenJoint& left = observation.seen_joints[pair];
-    const SeenJoint& right = observation.seen_joints[pair + 1];
+    const SeenJoint& left = joints[pair];
+    const SeenJoint& right = joints[pair + 1];
     if (left.visibility <= 0.0 || right.visibility <= 0.0) continue;
     const Real distance_m = observation.head_start.norm();
     leftwards += distance_m * view.right.dot(left.ray - right.ray) * view.right +

@@ -18,23 +18,31 @@ int mirrored(int joint) {
   return joint < kShoulder ? joint : ((joint - kShoulder) ^ 1) + kShoulder;
 }
 
-/// Where the network marks a joint, against the joint's centre in the body's frame (of the left
-/// side: outwards, up, to the front) [m]. Means of D1 to D3 and of simulated people, which agree to
-/// 1 cm, as do D4 and D5.
-const Vec3& mark_offset(int joint) {
-  static const std::array<Vec3, 7> offsets = {Vec3(0.0, -0.033, 0.012),
-                                              Vec3(-0.009, 0.020, 0.003),
-                                              Vec3::Zero(),
-                                              Vec3::Zero(),
-                                              Vec3(-0.006, -0.023, 0.030),
-                                              Vec3::Zero(),
-                                              Vec3(-0.005, 0.022, 0.006)};
-  return offsets[joint < kShoulder ? 0 : 1 + (joint - kShoulder) / 2];
+using MarkOffsets = std::array<Vec3, 7>;
+
+/// Where the networks mark a joint, against the joint's centre in the body's frame (of the left
+/// side: outwards, up, to the front) [m]: head, shoulders, elbows, wrists, hips, knees, ankles.
+/// Means of D1 to D3 and of simulated people, which agree to 1 cm, as do D4 and D5.
+const MarkOffsets& mark_offsets(ImageNetwork network) {
+  static const MarkOffsets blaze_pose = {Vec3(0.0, -0.033, 0.012),
+                                         Vec3(-0.009, 0.020, 0.003),
+                                         Vec3::Zero(),
+                                         Vec3::Zero(),
+                                         Vec3(-0.006, -0.023, 0.030),
+                                         Vec3::Zero(),
+                                         Vec3(-0.005, 0.022, 0.006)};
+  static const MarkOffsets move_net = {
+      Vec3(0.0, -0.033, 0.012),   Vec3(-0.005, 0.030, 0.003), Vec3::Zero(),           Vec3::Zero(),
+      Vec3(-0.002, 0.010, 0.028), Vec3(0.0, -0.010, 0.004),   Vec3(0.0, 0.010, 0.005)};
+  return network == ImageNetwork::kBlazePose ? blaze_pose : move_net;
+}
+
+Real limit_of(ImageNetwork network, const RefinedParams& params) {
+  return params.image_sigma_m[static_cast<std::size_t>(network)] * params.image_limit_sigmas;
 }
 
 /// 0 on the ray, 1 far off it.
-Real share_of_limit(const SeenJoint& seen, const Vec3& point, const RefinedParams& params) {
-  const Real limit_m = params.image_sigma_m * params.image_limit_sigmas;
+Real share_of_limit(const SeenJoint& seen, const Vec3& point, Real limit_m) {
   const Real ratio = point.cross(seen.ray).squaredNorm() / (limit_m * limit_m);
   return ratio / (1.0 + ratio);
 }
@@ -44,73 +52,51 @@ struct SideCosts {
   Real as_told = 0.0, exchanged = 0.0;
 };
 
-SideCosts side_costs(const BodyState& body, const Observation& observation, unsigned parts,
+SideCosts side_costs(const BodyState& body, const ImageLook& look, unsigned parts,
                      const RefinedParams& params) {
   SideCosts costs;
   for (int joint = 0; joint < kJointCount; ++joint) {
     if ((parts & part_of(joint)) == 0) continue;
-    const Vec3 place = marked_place(body, joint);
-    costs.as_told += image_cost(observation.seen_joints[joint], place, params);
-    costs.exchanged += image_cost(observation.seen_joints[mirrored(joint)], place, params);
+    const Vec3 place = marked_place(body, joint, look.network);
+    costs.as_told += image_cost(look, joint, place, params);
+    costs.exchanged += image_cost(look, mirrored(joint), place, params);
   }
   costs.exchanged += params.image_swap_cost;
   return costs;
 }
 
-}  // namespace
-
-Vec3 marked_place(const BodyState& body, int joint) {
-  Vec3 offset = mark_offset(joint);
-  if (joint >= kShoulder) offset.x() *= side_sign((joint - kShoulder) % 2);
-  return body.points[joint] + body.rotation * offset;
-}
-
-Real image_cost(const SeenJoint& seen, const Vec3& point, const RefinedParams& params) {
-  if (seen.visibility <= 0.0) return 0.0;
-  const Real limit2 = params.image_limit_sigmas * params.image_limit_sigmas;
-  return 0.5 * params.image_weight * seen.visibility * limit2 * share_of_limit(seen, point, params);
-}
-
-ImageEvidence image_evidence(const BodyState& body, const Observation& observation,
-                             const RefinedParams& params) {
+ImageEvidence evidence_of(const BodyState& body, const ImageLook& look,
+                          const RefinedParams& params) {
   ImageEvidence evidence;
-  evidence.told = observation.has_image_pose;
-  if (!evidence.told) return evidence;
-  evidence.person_score = observation.image_person_score;
-  evidence.sides_swapped = image_takes_sides_otherwise(body, observation, kAllParts, params);
+  evidence.told = true;
+  evidence.person_score = look.person_score;
+  evidence.sides_swapped = takes_sides_otherwise(body, look, kAllParts, params);
   for (int joint = 0; joint < kJointCount; ++joint) {
-    const SeenJoint& seen =
-        observation.seen_joints[evidence.sides_swapped ? mirrored(joint) : joint];
+    const SeenJoint& seen = look.joints[evidence.sides_swapped ? mirrored(joint) : joint];
     evidence.visibility[joint] = seen.visibility;
-    evidence.disagreement[joint] = share_of_limit(seen, marked_place(body, joint), params);
+    evidence.disagreement[joint] = share_of_limit(seen, marked_place(body, joint, look.network),
+                                                  limit_of(look.network, params));
   }
   return evidence;
 }
 
-bool image_takes_sides_otherwise(const BodyState& body, const Observation& observation,
-                                 unsigned parts, const RefinedParams& params) {
-  const SideCosts costs = side_costs(body, observation, parts | bit(Part::kTrunk), params);
-  return costs.exchanged < costs.as_told;
-}
-
-void add_image_term(const BodyState& body, const Observation& observation, unsigned parts,
-                    const RefinedParams& params, NormalEquations& equations) {
-  if (!observation.has_image_pose) return;
+void add_look(const BodyState& body, const ImageLook& look, unsigned parts,
+              const RefinedParams& params, NormalEquations& equations) {
   const unsigned parts_and_trunk = parts | bit(Part::kTrunk);
-  const SideCosts with_trunk = side_costs(body, observation, parts_and_trunk, params);
+  const SideCosts with_trunk = side_costs(body, look, parts_and_trunk, params);
   const bool swapped = with_trunk.exchanged < with_trunk.as_told;
   const SideCosts costs =
-      parts == parts_and_trunk ? with_trunk : side_costs(body, observation, parts, params);
+      parts == parts_and_trunk ? with_trunk : side_costs(body, look, parts, params);
   equations.cost += swapped ? costs.exchanged : costs.as_told;
   if (!equations.derivatives()) return;
-  const Real sigma2 = params.image_sigma_m * params.image_sigma_m;
-  const Real limit2 = params.image_limit_sigmas * params.image_limit_sigmas;
+  const Real sigma_m = params.image_sigma_m[static_cast<std::size_t>(look.network)];
+  const Real limit_m = limit_of(look.network, params);
   for (int joint = 0; joint < kJointCount; ++joint) {
-    const SeenJoint& seen = observation.seen_joints[swapped ? mirrored(joint) : joint];
+    const SeenJoint& seen = look.joints[swapped ? mirrored(joint) : joint];
     if (seen.visibility <= 0.0 || (parts & part_of(joint)) == 0) continue;
-    const Vec3 point = marked_place(body, joint);
-    const Real shrink = 1.0 / (1.0 + point.cross(seen.ray).squaredNorm() / (sigma2 * limit2));
-    const Real information = params.image_weight * seen.visibility * shrink * shrink / sigma2;
+    const Vec3 point = marked_place(body, joint, look.network);
+    const Real shrink = 1.0 - share_of_limit(seen, point, limit_m);
+    const Real information = look.weight * seen.visibility * shrink * shrink / (sigma_m * sigma_m);
     // Two directions across the ray; along it the image tells nothing.
     const Vec3 first = seen.ray.unitOrthogonal();
     for (const Vec3& direction : {first, Vec3(seen.ray.cross(first))}) {
@@ -119,6 +105,42 @@ void add_image_term(const BodyState& body, const Observation& observation, unsig
       equations.add_row(direction.dot(point), information);
     }
   }
+}
+
+}  // namespace
+
+Vec3 marked_place(const BodyState& body, int joint, ImageNetwork network) {
+  Vec3 offset = mark_offsets(network)[joint < kShoulder ? 0 : 1 + (joint - kShoulder) / 2];
+  if (joint >= kShoulder) offset.x() *= side_sign((joint - kShoulder) % 2);
+  return body.points[joint] + body.rotation * offset;
+}
+
+Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point,
+                const RefinedParams& params) {
+  const SeenJoint& seen = look.joints[seen_joint];
+  if (seen.visibility <= 0.0) return 0.0;
+  return 0.5 * look.weight * seen.visibility * params.image_limit_sigmas *
+         params.image_limit_sigmas * share_of_limit(seen, point, limit_of(look.network, params));
+}
+
+std::array<ImageEvidence, kImageNetworkCount> image_evidence(const BodyState& body,
+                                                             const Observation& observation,
+                                                             const RefinedParams& params) {
+  std::array<ImageEvidence, kImageNetworkCount> evidence;
+  for (std::size_t i = 0; i < observation.looks.size(); ++i)
+    evidence.at(i) = evidence_of(body, observation.looks[i], params);
+  return evidence;
+}
+
+bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigned parts,
+                           const RefinedParams& params) {
+  const SideCosts costs = side_costs(body, look, parts | bit(Part::kTrunk), params);
+  return costs.exchanged < costs.as_told;
+}
+
+void add_image_term(const BodyState& body, const Observation& observation, unsigned parts,
+                    const RefinedParams& params, NormalEquations& equations) {
+  for (const ImageLook& look : observation.looks) add_look(body, look, parts, params, equations);
 }
 
 }  // namespace limbcast::pose_fitter::refined

@@ -150,18 +150,25 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
   observation.skin_distance_px.assign(distance.begin<float>(), distance.end<float>());
 }
 
-void set_seen_joints(const Segment& segment, const RangeImage& image, Observation& observation) {
-  if (!segment.image_pose) return;
-  observation.has_image_pose = true;
+void set_looks(const Segment& segment, const RangeImage& image, const RefinedParams& params,
+               Observation& observation) {
   observation.image_has_colors = !image.is_skin.empty();
-  observation.image_person_score = segment.image_pose->person_score;
   const Eigen::Vector2f origin_px(static_cast<float>(image.origin_u),
                                   static_cast<float>(image.origin_v));
-  for (const ImageJoint& joint : segment.image_pose->joints) {
-    const Eigen::Vector2f px = joint.px - origin_px;
-    observation.seen_joints[index(joint.joint)] = {
-        image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(), joint.visibility,
-        joint.behind_hips_m};
+  for (const ImagePose& pose : segment.image_poses) {
+    ImageLook look;
+    const std::size_t network = observation.looks.size();
+    look.network = static_cast<ImageNetwork>(network);
+    look.weight = segment.image_poses.size() == 1 ? params.lone_image_weight
+                                                  : params.image_weight.at(network);
+    look.person_score = pose.person_score;
+    for (const ImageJoint& joint : pose.joints) {
+      const Eigen::Vector2f px = joint.px - origin_px;
+      look.joints[index(joint.joint)] = {
+          image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(),
+          joint.visibility, joint.behind_hips_m};
+    }
+    observation.looks.push_back(look);
   }
 }
 
@@ -241,7 +248,7 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   if (!box) return std::nullopt;
   make_grids(image, *box, head_z, median_z, observation);
   find_skin(image, *box, observation);
-  set_seen_joints(segment, image, observation);
+  set_looks(segment, image, params, observation);
   const auto own_pixels = std::count_if(observation.surface_m.begin(), observation.surface_m.end(),
                                         [](float z) { return z > 0.0F; });
   const int step = std::max(1, static_cast<int>(std::lround(std::sqrt(

