@@ -16,6 +16,7 @@ namespace {
 /// The network's maps have a cell for so many pixels of the picture.
 constexpr int kCell_px = 4;
 constexpr int kCells = kPictureSide_px / kCell_px;
+constexpr float kMiddle_cells = 0.5F * kCells;
 /// Keypoints of COCO, and the network's outputs.
 constexpr int kKeypoints = 17;
 enum Output { kCenter, kHeatmap, kRegression, kOffset };
@@ -50,7 +51,8 @@ constexpr std::array<JointKeypoint, 12> kJointKeypoints = {{{Joint::kShoulderLef
 
 /// Column and row of a cell.
 Eigen::Vector2f place_of(int cell) {
-  return {static_cast<float>(cell % kCells), static_cast<float>(cell / kCells)};
+  const int row = cell / kCells;
+  return {static_cast<float>(cell % kCells), static_cast<float>(row)};
 }
 
 /// The cell of the highest score, where those far from `expected` count less. `log_odds` are the
@@ -84,7 +86,7 @@ const TfliteFile& MoveNet::file() {
 MoveNet::MoveNet() : network_(file(), {"center", "heatmap", "regression", "offset"}) {}
 
 int MoveNet::find_person() const {
-  return best_cell(network_.output(kCenter), 1, Eigen::Vector2f::Constant(kCells / 2));
+  return best_cell(network_.output(kCenter), 1, Eigen::Vector2f::Constant(kMiddle_cells));
 }
 
 MoveNet::Keypoint MoveNet::find_keypoint(int person_cell, int keypoint) const {
