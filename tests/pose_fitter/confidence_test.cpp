@@ -146,12 +146,25 @@ TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
 
 TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
   FittedBody fitted = standing_person();
+  fitted.observation.image_has_colors = true;
   fitted.evidence.prior_cost = 30.0;
   while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > 0.8)
     fitted.evidence.head_odds -= 0.1;
   ASSERT_GT(person_confidence(fitted), 0.45);
   EXPECT_TRUE(assess(fitted));
   fitted.observation.noise.constant_m = 0.06F;
+  EXPECT_FALSE(assess(fitted));
+}
+
+TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
+  FittedBody fitted = standing_person();
+  fitted.observation.noise.quadratic_per_m = 0.002F;
+  fitted.evidence.prior_cost = 30.0;
+  while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > 0.74)
+    fitted.evidence.head_odds -= 0.1;
+  ASSERT_GT(person_confidence(fitted), 0.6);
+  EXPECT_TRUE(assess(fitted));
+  fitted.observation.noise.quadratic_per_m = 0.0F;
   EXPECT_FALSE(assess(fitted));
 }
 

@@ -114,8 +114,14 @@ TEST(RefinedFitter, KeepsTheBodyOutOfFreeSpace) {
   }
 }
 
+/// The same person, seen by a camera with colours: none of it is skin.
+Segment colored(Segment segment) {
+  segment.range_image->is_skin.assign(segment.range_image->depth_m.size(), 0);
+  return segment;
+}
+
 TEST(RefinedFitter, TurnsABodyToTheSensorWhereAFaceIsSeen) {
-  Segment segment = testing::seen(testing::standing_body(2.5, 180.0 * kDegree));
+  Segment segment = colored(testing::seen(testing::standing_body(2.5, 180.0 * kDegree)));
   // Who faces the sensor has the left arm at the image's right.
   const auto left_m = [&] {
     const auto pose = RefinedFitter().fit(segment, testing::stamp());
@@ -128,12 +134,6 @@ TEST(RefinedFitter, TurnsABodyToTheSensorWhereAFaceIsSeen) {
   // Surer than any face, so that it is told what the face tells, however well the shape fits.
   segment.face.facing_log_odds = 40.0F;
   EXPECT_GT(left_m(), 0.2F);
-}
-
-/// The same, seen by a camera with colours: none of it is skin.
-Segment colored(Segment segment) {
-  segment.range_image->is_skin.assign(segment.range_image->depth_m.size(), 0);
-  return segment;
 }
 
 TEST(RefinedFitter, TurnsABodyToTheSideThatTheImageShows) {

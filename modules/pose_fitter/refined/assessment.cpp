@@ -14,15 +14,23 @@ constexpr Real kLeastArmConfidence = 0.1;
 /// A body less sure than this is no person. At 0.45 eight things in 160 simulated rooms are people,
 /// at 0.6 one; five of 560 simulated and recorded people lie between.
 constexpr Real kLeastPersonConfidence = 0.6;
+/// Before a scanner the surface alone speaks: of 150 simulated rooms three get a person at 0.6 and
+/// none at 0.75; of 114 people two are lost.
+constexpr Real kLeastScannedPersonConfidence = 0.75;
 /// The trees of the confidence were trained on nobody where the depth's noise is larger [m]: there
 /// a body must be surer (a thing 6.7 m from a VGA pair was told with 0.77).
 constexpr Real kMostTrainedNoiseM = 0.05, kLeastNoisyPersonConfidence = 0.9;
 
+/// A camera's noise grows with the distance, a scanner's does not.
+bool of_scanner(const Observation& observation) {
+  return !observation.image_has_colors && observation.noise.quadratic_per_m <= 0.0F;
+}
+
 Real least_confidence(const FittedBody& fitted) {
   const auto distance_m = static_cast<float>(fitted.body.points[kHead].z());
-  return fitted.observation.noise.sigma_m(distance_m) > kMostTrainedNoiseM
-             ? kLeastNoisyPersonConfidence
-             : kLeastPersonConfidence;
+  if (fitted.observation.noise.sigma_m(distance_m) > kMostTrainedNoiseM)
+    return kLeastNoisyPersonConfidence;
+  return of_scanner(fitted.observation) ? kLeastScannedPersonConfidence : kLeastPersonConfidence;
 }
 
 }  // namespace
