@@ -73,7 +73,7 @@ TEST_F(Packages, TellTheLicenceOfThePoseNetwork) {
                               "dpkg-deb --fsys-tarfile " + folder_.string() +
                                   "/limbcast-tools_*.deb | tar -xO "
                                   "./usr/share/doc/limbcast-tools/copyright"});
-  for (const char* text : {"BSD 3-Clause", "BlazePose", "Apache License"})
+  for (const char* text : {"BSD 3-Clause", "BlazePose", "MoveNet", "Apache License"})
     EXPECT_THAT(copyright.output, HasSubstr(text));
 }
 

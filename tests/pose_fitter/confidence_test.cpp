@@ -146,7 +146,7 @@ TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
 
 TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
   FittedBody fitted = standing_person();
-  fitted.observation.image_has_colors = true;
+  fitted.observation.has_colors = true;
   fitted.evidence.prior_cost = 30.0;
   while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > 0.8)
     fitted.evidence.head_odds -= 0.1;

@@ -23,7 +23,7 @@ constexpr Real kMostTrainedNoiseM = 0.05, kLeastNoisyPersonConfidence = 0.9;
 
 /// A camera's noise grows with the distance, a scanner's does not.
 bool of_scanner(const Observation& observation) {
-  return !observation.image_has_colors && observation.noise.quadratic_per_m <= 0.0F;
+  return !observation.has_colors && observation.noise.quadratic_per_m <= 0.0F;
 }
 
 Real least_confidence(const FittedBody& fitted) {

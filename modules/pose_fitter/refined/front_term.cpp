@@ -57,7 +57,7 @@ Vec3 leftwards_in_image(const Observation& observation, const View& view) {
 Real image_disagreement(const Vec3& front, const View& view, const Observation& observation,
                         Real side_log_odds) {
   // Whose surface alone was looked at shows no face: the network's sides are a guess.
-  if (!observation.image_has_colors) return 0.0;
+  if (!observation.has_colors) return 0.0;
   const Vec3 leftwards = leftwards_in_image(observation, view);
   if (leftwards.isZero()) return 0.0;
   const Vec3 told = leftwards.cross(observation.up).normalized();

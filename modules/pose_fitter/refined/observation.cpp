@@ -152,7 +152,7 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
 
 void set_looks(const Segment& segment, const RangeImage& image, const RefinedParams& params,
                Observation& observation) {
-  observation.image_has_colors = !image.is_skin.empty();
+  observation.has_colors = !image.is_skin.empty();
   const Eigen::Vector2f origin_px(static_cast<float>(image.origin_u),
                                   static_cast<float>(image.origin_v));
   for (const ImagePose& pose : segment.image_poses) {

@@ -60,7 +60,7 @@ struct Observation {
 
   FaceEvidence face;               ///< what its face tells
   std::vector<ImageLook> looks;    ///< of the first networks, or of none
-  bool image_has_colors = false;   ///< else the surface was looked at, whose sides are a guess
+  bool has_colors = false;         ///< else the networks saw the surface, whose sides are a guess
   Vec3 up;                         ///< against gravity
   Vec3 head_start;                 ///< first guess of the head's centre
   Real head_start_sigma_m = 0.05;  ///< standard deviation of its error

@@ -62,7 +62,8 @@ bool faces_away(const BodyState& a, const BodyState& b) { return a.front().dot(b
 PoseSearch::PoseSearch(const Observation& observation, const RefinedParams& params)
     : observation_(observation),
       params_(params),
-      effort_(observation.image_has_colors ? params.effort_with_image : params.effort),
+      effort_(observation.has_colors && !observation.looks.empty() ? params.effort_with_image
+                                                                   : params.effort),
       solver_(observation, params),
       arms_(observation, params) {}
 
