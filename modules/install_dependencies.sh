@@ -13,7 +13,7 @@ packages_test=(
   clang-format clang-tidy jq
   default-jdk-headless default-jre liblcm-java libjchart2d-java junit4
   xvfb xdotool imagemagick poppler-utils
-  libfaketime systemd help2man
+  libfaketime systemd help2man file
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good)
 
 packages=("${packages_run[@]}")
