@@ -71,6 +71,13 @@ Eigen::Vector3f marked_head(const ImagePose& pose, const PinholeCamera& camera, 
   return camera.back_project(seen->px.x(), seen->px.y(), depth_m);
 }
 
+/// The second network looks only where the first does: else it need not be loaded.
+PoseNetworkParams second_of(const Params& params) {
+  PoseNetworkParams second = params.second_pose_network;
+  second.enabled = second.enabled && params.pose_network.enabled;
+  return second;
+}
+
 bool has_image(const Cloud& cloud) { return cloud.organized() && !cloud.colors.empty(); }
 
 /// The camera's own image; of a scan one that shows the place.
@@ -98,7 +105,7 @@ Segmenter::Segmenter(const Params& params)
     : params_(params),
       faces_(params.faces),
       pose_network_(params.pose_network),
-      second_pose_network_(params.second_pose_network, PictureNetworkKind::kMoveNet) {}
+      second_pose_network_(second_of(params), PictureNetworkKind::kMoveNet) {}
 
 Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step) {
   step = std::max(1, static_cast<int>(std::lround(cloud.camera->fx / kLatticeFocal_px)));

@@ -140,16 +140,22 @@ FittedBody standing_person() {
   return *fitted;
 }
 
+/// The same in an odd posture, with a head as doubtful as makes the confidence fall to `most`.
+FittedBody doubtful_person(Real most) {
+  FittedBody fitted = standing_person();
+  fitted.evidence.prior_cost = 30.0;
+  while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > most)
+    fitted.evidence.head_odds -= 0.1;
+  return fitted;
+}
+
 TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
   EXPECT_GT(person_confidence(standing_person()), 0.9);
 }
 
 TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
-  FittedBody fitted = standing_person();
+  FittedBody fitted = doubtful_person(0.8);
   fitted.observation.has_colors = true;
-  fitted.evidence.prior_cost = 30.0;
-  while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > 0.8)
-    fitted.evidence.head_odds -= 0.1;
   ASSERT_GT(person_confidence(fitted), 0.45);
   EXPECT_TRUE(assess(fitted));
   fitted.observation.noise.constant_m = 0.06F;
@@ -157,11 +163,8 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
-  FittedBody fitted = standing_person();
+  FittedBody fitted = doubtful_person(0.74);
   fitted.observation.noise.quadratic_per_m = 0.002F;
-  fitted.evidence.prior_cost = 30.0;
-  while (fitted.evidence.head_odds > -5.0 && person_confidence(fitted) > 0.74)
-    fitted.evidence.head_odds -= 0.1;
   ASSERT_GT(person_confidence(fitted), 0.6);
   EXPECT_TRUE(assess(fitted));
   fitted.observation.noise.quadratic_per_m = 0.0F;
