@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -12,14 +13,17 @@
 namespace limbcast::reconstructor {
 namespace {
 
-/// Side of the window in which a surface is one, for its shape and its shift: smaller follows fine
-/// shapes, larger quiets noise. A constant, so that the compiler unrolls the loops over it.
-constexpr int kWindowPx = 7;
-constexpr int kRadiusPx = kWindowPx / 2;
+/// Sides of the windows in which a surface is one, for its shape and for its shift: smaller follows
+/// fine shapes, larger quiets noise. Constants, so that the compiler unrolls the loops over them.
+constexpr int kShapeWindowPx = 7, kShiftWindowPx = 9;
+/// Nearer to a step both images show what lies on either side of it, in different places: window
+/// and blur carry it so far. Shifts found there took arms 2 cm too far at 3 m.
+constexpr int kStepMarginPx = 2;
 /// First pixels of a window's rows, or of its columns.
-using Taps = std::array<const float*, kWindowPx>;
+template <int window_px>
+using Taps = std::array<const float*, window_px>;
 
-LIMBCAST_SIMD void sum_window(const Taps& taps, int count, float* __restrict sums) {
+LIMBCAST_SIMD void sum_window(const Taps<kShiftWindowPx>& taps, int count, float* __restrict sums) {
   for (int i = 0; i < count; ++i) {
     float sum = 0.0F;
     for (const float* tap : taps) sum += tap[i];
@@ -29,10 +33,10 @@ LIMBCAST_SIMD void sum_window(const Taps& taps, int count, float* __restrict sum
 
 /// Mean of those pixels of a window that are on the surface of its middle, the more alike the more
 /// weight; a hole (0) stays one.
-LIMBCAST_SIMD void average_surface(const Taps& taps, float same_surface_px, int count,
-                                   float* __restrict means) {
+LIMBCAST_SIMD void average_surface(const Taps<kShapeWindowPx>& taps, float same_surface_px,
+                                   int count, float* __restrict means) {
   for (int i = 0; i < count; ++i) {
-    const float middle = taps[kRadiusPx][i];
+    const float middle = taps[kShapeWindowPx / 2][i];
     float sum = 0.0F, weights = 0.0F;
     for (const float* tap : taps) {
       const float alike = same_surface_px - std::abs(tap[i] - middle);
@@ -46,9 +50,11 @@ LIMBCAST_SIMD void average_surface(const Taps& taps, float same_surface_px, int 
 
 /// Applies `filter(taps, count, result)` along rows, then along columns, row by row, so that all
 /// of it stays in the cache. Outside the image everything is 0.
-template <typename Filter>
+template <int window_px, typename Filter>
 class WindowFilter {
  public:
+  static constexpr int kRadiusPx = window_px / 2;
+
   WindowFilter(int width, Filter filter)
       : width_(width), filter_(std::move(filter)), padded_(width + 2 * kRadiusPx, 0.0F) {
     for (auto& row : filtered_) row.assign(width, 0.0F);
@@ -61,14 +67,14 @@ class WindowFilter {
       return;
     }
     std::copy_n(row, width_, padded_.begin() + kRadiusPx);
-    Taps taps{};
-    for (int i = 0; i < kWindowPx; ++i) taps[i] = padded_.data() + i;
+    Taps<window_px> taps{};
+    for (int i = 0; i < window_px; ++i) taps[i] = padded_.data() + i;
     filter_(taps, width_, filtered_.back().data());
   }
   /// The result for the row that was pushed kRadiusPx rows ago.
   void pull(float* result) const {
-    Taps taps{};
-    for (int i = 0; i < kWindowPx; ++i) taps[i] = filtered_[i].data();
+    Taps<window_px> taps{};
+    for (int i = 0; i < window_px; ++i) taps[i] = filtered_[i].data();
     filter_(taps, width_, result);
   }
 
@@ -76,17 +82,19 @@ class WindowFilter {
   int width_;
   Filter filter_;
   std::vector<float> padded_;
-  std::array<std::vector<float>, kWindowPx> filtered_;
+  std::array<std::vector<float>, window_px> filtered_;
 };
 
 cv::Mat1f smooth_surfaces(const cv::Mat1f& disparity_px, float same_surface_px) {
-  WindowFilter filter(disparity_px.cols, [=](const Taps& taps, int count, float* means) {
+  const auto average = [=](const Taps<kShapeWindowPx>& taps, int count, float* means) {
     average_surface(taps, same_surface_px, count, means);
-  });
+  };
+  using Filter = WindowFilter<kShapeWindowPx, decltype(average)>;
+  Filter filter(disparity_px.cols, average);
   cv::Mat1f smoothed(disparity_px.size());
-  for (int v = 0; v < disparity_px.rows + kRadiusPx; ++v) {
+  for (int v = 0; v < disparity_px.rows + Filter::kRadiusPx; ++v) {
     filter.push(v < disparity_px.rows ? disparity_px[v] : nullptr);
-    if (v >= kRadiusPx) filter.pull(smoothed[v - kRadiusPx]);
+    if (v >= Filter::kRadiusPx) filter.pull(smoothed[v - Filter::kRadiusPx]);
   }
   return smoothed;
 }
@@ -108,14 +116,26 @@ Sample interpolate(const float* samples, float fraction) {
 enum Term { kNumber, kSlope, kDifference, kSlopeSquared, kProduct, kNumTerms };
 using Terms = std::array<std::vector<float>, kNumTerms>;
 
-/// The terms of each pixel of a row; 0 where it has no disparity or its match no surroundings.
-void compute_terms(const float* left, const float* right, const float* disparity_px, int width,
-                   Terms& terms) {
+/// 255 where a pixel and all within kStepMarginPx of it are on one surface.
+cv::Mat1b inside_surfaces(const cv::Mat1f& disparity_px, float same_surface_px) {
+  const cv::Mat1b window = cv::Mat1b::ones(2 * kStepMarginPx + 1, 2 * kStepMarginPx + 1);
+  cv::Mat1f lowest, highest;
+  cv::erode(disparity_px, lowest, window);
+  cv::dilate(disparity_px, highest, window);
+  const cv::Mat1b near = highest - disparity_px <= same_surface_px;
+  const cv::Mat1b far = disparity_px - lowest <= same_surface_px;
+  return near & far;
+}
+
+/// The terms of each pixel of a row; 0 where it is not inside a surface or its match has no
+/// surroundings.
+void compute_terms(const float* left, const float* right, const float* disparity_px,
+                   const std::uint8_t* inside, int width, Terms& terms) {
   for (auto& term : terms) term.assign(width, 0.0F);
   for (int u = 1; u + 1 < width; ++u) {
     const float matched = static_cast<float>(u) - disparity_px[u];
     const int column = static_cast<int>(matched);
-    if (disparity_px[u] <= 0.0F || column < 1 || column + 2 >= width) continue;
+    if (inside[u] == 0 || disparity_px[u] <= 0.0F || column < 1 || column + 2 >= width) continue;
     const Sample sample = interpolate(right + column, matched - static_cast<float>(column));
     const float slope = 0.5F * (sample.slope + 0.5F * (left[u + 1] - left[u - 1]));
     const float difference = sample.value - left[u];
@@ -138,21 +158,23 @@ float shift_px(const Terms& sums, int u, float noise_variance) {
   return std::clamp(covariance / (variance + noise_variance * number), -kMaxShiftPx, kMaxShiftPx);
 }
 
-void shift_windows(const cv::Mat1f& left, const cv::Mat1f& right, float noise_variance,
+void shift_windows(const cv::Mat1f& left, const cv::Mat1f& right, const SubpixelParams& params,
                    cv::Mat1f& disparity_px) {
+  using Filter = WindowFilter<kShiftWindowPx, decltype(&sum_window)>;
   const int width = left.cols;
-  std::vector<WindowFilter<decltype(&sum_window)>> filters(kNumTerms, {width, sum_window});
+  const cv::Mat1b inside_surface = inside_surfaces(disparity_px, params.same_surface_px);
+  std::vector<Filter> filters(kNumTerms, {width, sum_window});
   Terms terms, sums;
   for (auto& sum : sums) sum.resize(width);
-  for (int v = 0; v < left.rows + kRadiusPx; ++v) {
+  for (int v = 0; v < left.rows + Filter::kRadiusPx; ++v) {
     const bool inside = v < left.rows;
-    if (inside) compute_terms(left[v], right[v], disparity_px[v], width, terms);
+    if (inside) compute_terms(left[v], right[v], disparity_px[v], inside_surface[v], width, terms);
     for (int i = 0; i < kNumTerms; ++i) filters[i].push(inside ? terms[i].data() : nullptr);
-    if (v < kRadiusPx) continue;
+    if (v < Filter::kRadiusPx) continue;
     for (int i = 0; i < kNumTerms; ++i) filters[i].pull(sums[i].data());
-    float* row = disparity_px[v - kRadiusPx];
+    float* row = disparity_px[v - Filter::kRadiusPx];
     for (int u = 0; u < width; ++u)
-      if (row[u] > 0.0F) row[u] += shift_px(sums, u, noise_variance);
+      if (row[u] > 0.0F) row[u] += shift_px(sums, u, params.noise_variance);
   }
 }
 
@@ -168,8 +190,8 @@ cv::Mat1f blurred(const cv::Mat1b& image, double blur_px) {
 void refine_disparities(const cv::Mat1b& left, const cv::Mat1b& right, const SubpixelParams& params,
                         cv::Mat1f& disparity_px) {
   disparity_px = smooth_surfaces(disparity_px, params.same_surface_px);
-  shift_windows(blurred(left, params.blur_px), blurred(right, params.blur_px),
-                params.noise_variance, disparity_px);
+  shift_windows(blurred(left, params.blur_px), blurred(right, params.blur_px), params,
+                disparity_px);
   disparity_px = smooth_surfaces(disparity_px, params.same_surface_px);  // the shifts are noisy too
 }
 

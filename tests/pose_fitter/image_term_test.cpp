@@ -102,6 +102,18 @@ TEST_F(ImageTerm, CostsAFixedSumWhereTheImageTakesLeftForRight) {
   EXPECT_NEAR(cost(body_), params_.image_swap_cost, 1e-9);
 }
 
+TEST_F(ImageTerm, MarksTheShoulderOfAHangingArmHigher) {
+  BodyState raised = body_;
+  raised.points[kElbow] = raised.points[kShoulder] + 0.3 * raised.rotation.col(1);
+  for (const ImageNetwork network : {ImageNetwork::kBlazePose, ImageNetwork::kMoveNet}) {
+    const Vec3 change =
+        marked_place(raised, kShoulder, network) - marked_place(body_, kShoulder, network);
+    EXPECT_LT(change.dot(raised.rotation.col(1)), -0.015);
+    EXPECT_EQ(marked_place(raised, kShoulder + 1, network),
+              marked_place(body_, kShoulder + 1, network));
+  }
+}
+
 TEST_F(ImageTerm, TellsHowFarTheBodyAgrees) {
   const ImageEvidence agrees = evidence_of(body_);
   EXPECT_TRUE(agrees.told);

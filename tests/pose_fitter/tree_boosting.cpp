@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 namespace limbcast::pose_fitter {
 namespace {
@@ -58,6 +59,8 @@ class Boosting {
 
   Tree next_tree() {
     for (std::size_t i = 0; i < derivatives_.size(); ++i) {
+      derivatives_[i] = {};
+      if (!drawn(params_.case_share)) continue;
       const double told = 1.0 / (1.0 + std::exp(-log_odds_[static_cast<Eigen::Index>(i)]));
       derivatives_[i] = {told - (cases_.positive[i] ? 1.0 : 0.0), told * (1.0 - told), 1};
     }
@@ -69,6 +72,19 @@ class Boosting {
   }
 
  private:
+  bool drawn(double share) {
+    return static_cast<double>(random_()) < share * static_cast<double>(std::mt19937::max());
+  }
+  /// At least one.
+  std::vector<int> draw_features() {
+    std::vector<int> features;
+    while (features.empty()) {
+      for (std::size_t f = 0; f < order_.size(); ++f)
+        if (drawn(params_.feature_share)) features.push_back(static_cast<int>(f));
+    }
+    return features;
+  }
+
   double loss_taken(const Derivatives& sums) const {
     return sums.gradient * sums.gradient / (sums.hessian + params_.prior_weight);
   }
@@ -78,7 +94,7 @@ class Boosting {
     std::array<Derivatives, Tree::kQuestions> all;
     for (std::size_t i = 0; i < node_of_.size(); ++i) all[node_of_[i]].add(derivatives_[i]);
     std::array<Split, Tree::kQuestions> best;
-    for (std::size_t f = 0; f < order_.size(); ++f) try_feature(static_cast<int>(f), all, best);
+    for (const int feature : draw_features()) try_feature(feature, all, best);
     for (std::size_t node = first; node <= 2 * first; ++node) {
       tree.feature[node] = best[node].feature;
       tree.threshold[node] = best[node].threshold;
@@ -125,7 +141,8 @@ class Boosting {
   const BoostingParams& params_;
   std::vector<std::vector<int>> order_;
   Eigen::VectorXd log_odds_;
-  std::vector<Derivatives> derivatives_;
+  std::vector<Derivatives> derivatives_;  ///< none of the cases that this tree does not see
+  std::mt19937 random_;
   std::vector<std::size_t> node_of_;  ///< of each case, in the tree that grows
 };
 

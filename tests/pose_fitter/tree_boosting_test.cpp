@@ -58,6 +58,7 @@ TEST(TreeBoosting, KeepsAwayFromLeavesOfFewCases) {
   BoostingParams params;
   params.trees = 1;
   params.min_leaf_cases = 10;
+  params.case_share = 1.0;
 
   const refined::Tree tree = boost_trees(cases, params).at(0);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -80,6 +81,35 @@ TEST(Match, TakesTheEvenWallBesideASquareForTheWall) {
   }
   const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
   EXPECT_NEAR(cv::countNonZero(found > 30.0F), square.area(), 0.05 * square.area());
+}
+
+TEST(Match, FindsTheDepthOfABarAsThickAsAnArm) {
+  // Windows reach over its edges, where the wall behind shifts less from image to image.
+  constexpr double kLeft = 300.0, kRight = 316.0, kBarPx = 24.4, kWallPx = 12.0;
+  const test::Texture texture;
+  RectifiedPair pair{cv::Mat1b(480, 640), cv::Mat1b(480, 640)};
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const auto seen_at = [&](double bar_px, double wall_px) {
+        const bool on_bar = u + bar_px >= kLeft && u + bar_px < kRight;
+        return cv::saturate_cast<uchar>(on_bar ? 0.6 * texture(v, u + bar_px)
+                                               : texture(u + wall_px, v));
+      };
+      pair.left.at<uchar>(v, u) = seen_at(0.0, 0.0);
+      pair.right.at<uchar>(v, u) = seen_at(kBarPx, kWallPx);
+    }
+  }
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  std::vector<float> errors_px;
+  for (int v = 20; v < 460; ++v) {
+    for (int u = 300; u < 316; ++u) {
+      const float error_px = found(v, u) - static_cast<float>(kBarPx);
+      if (found(v, u) > 0.0F && std::abs(error_px) < 1.5F) errors_px.push_back(error_px);
+    }
+  }
+  ASSERT_GT(errors_px.size(), 440U * 14U);
+  const double sum_px = std::accumulate(errors_px.begin(), errors_px.end(), 0.0);
+  EXPECT_NEAR(sum_px / static_cast<double>(errors_px.size()), 0.0, 0.05);
 }
 
 TEST(Match, LeavesWhatOnlyTheLeftCameraSees) {

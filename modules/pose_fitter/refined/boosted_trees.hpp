@@ -5,10 +5,10 @@
 
 namespace limbcast::pose_fitter::refined {
 
-/// A decision tree of three questions in a row. Node k asks whether a feature is over a threshold;
+/// A decision tree of four questions in a row. Node k asks whether a feature is over a threshold;
 /// its children are 2k + 1 (no) and 2k + 2 (yes), the last ones the leaves.
 struct Tree {
-  static constexpr std::size_t kQuestions = 7, kLeaves = 8;
+  static constexpr std::size_t kQuestions = 15, kLeaves = 16;
 
   std::array<int, kQuestions> feature{};
   std::array<float, kQuestions> threshold{};

@@ -18,22 +18,26 @@ int mirrored(int joint) {
   return joint < kShoulder ? joint : ((joint - kShoulder) ^ 1) + kShoulder;
 }
 
-using MarkOffsets = std::array<Vec3, 7>;
+/// Where a network marks joints, against their centres.
+struct Marks {
+  /// In the body's frame (of the left side: outwards, up, to the front) [m]: head, shoulders of
+  /// arms held out, elbows, wrists, hips, knees, ankles.
+  std::array<Vec3, 7> offsets;
+  /// How much higher the shoulder of a hanging arm is marked, and lower that of one that points up
+  /// [m].
+  Real shoulder_drop_m;
+};
 
-/// Where the networks mark a joint, against the joint's centre in the body's frame (of the left
-/// side: outwards, up, to the front) [m]: head, shoulders, elbows, wrists, hips, knees, ankles.
-/// Means of D1 to D3 and of simulated people, which agree to 1 cm, as do D4 and D5.
-const MarkOffsets& mark_offsets(ImageNetwork network) {
-  static const MarkOffsets blaze_pose = {Vec3(0.0, -0.033, 0.012),
-                                         Vec3(-0.009, 0.020, 0.003),
-                                         Vec3::Zero(),
-                                         Vec3::Zero(),
-                                         Vec3(-0.006, -0.023, 0.030),
-                                         Vec3::Zero(),
-                                         Vec3(-0.005, 0.022, 0.006)};
-  static const MarkOffsets move_net = {
-      Vec3(0.0, -0.033, 0.012),   Vec3(-0.005, 0.030, 0.003), Vec3::Zero(),           Vec3::Zero(),
-      Vec3(-0.002, 0.010, 0.028), Vec3(0.0, -0.010, 0.004),   Vec3(0.0, 0.010, 0.005)};
+/// Medians of D1 to D3 and of simulated people, which agree to 1 cm, as do D4 and D5.
+const Marks& marks_of(ImageNetwork network) {
+  static const Marks blaze_pose = {
+      {Vec3(0.0, -0.033, 0.012), Vec3(-0.009, 0.010, 0.003), Vec3::Zero(), Vec3::Zero(),
+       Vec3(-0.006, -0.023, 0.030), Vec3::Zero(), Vec3(-0.005, 0.022, 0.006)},
+      0.011};
+  static const Marks move_net = {
+      {Vec3(0.0, -0.033, 0.012), Vec3(-0.005, 0.018, 0.003), Vec3::Zero(), Vec3::Zero(),
+       Vec3(-0.002, 0.010, 0.028), Vec3(0.0, -0.010, 0.004), Vec3(0.0, 0.010, 0.005)},
+      0.021};
   return network == ImageNetwork::kBlazePose ? blaze_pose : move_net;
 }
 
@@ -110,8 +114,13 @@ void add_look(const BodyState& body, const ImageLook& look, unsigned parts,
 }  // namespace
 
 Vec3 marked_place(const BodyState& body, int joint, ImageNetwork network) {
-  Vec3 offset = mark_offsets(network)[joint < kShoulder ? 0 : 1 + (joint - kShoulder) / 2];
+  const Marks& marks = marks_of(network);
+  Vec3 offset = marks.offsets[joint < kShoulder ? 0 : 1 + (joint - kShoulder) / 2];
   if (joint >= kShoulder) offset.x() *= side_sign((joint - kShoulder) % 2);
+  if (joint == kShoulder || joint == kShoulder + 1) {
+    const Vec3 upper_arm = body.points[joint + kElbow - kShoulder] - body.points[joint];
+    offset.y() -= marks.shoulder_drop_m * body.rotation.col(1).dot(upper_arm.normalized());
+  }
   return body.points[joint] + body.rotation * offset;
 }
 
