@@ -48,6 +48,34 @@ TEST(TreeBoosting, TellsTheShareWhereNothingSetsTheCasesApart) {
   EXPECT_NEAR(1.0 / (1.0 + std::exp(-log_odds)), 0.25, 0.01);
 }
 
+TEST(TreeBoosting, DrawsTheSameForTheSameCases) {
+  const auto once = boost_trees(same_signs(500), BoostingParams{});
+  const auto again = boost_trees(same_signs(500), BoostingParams{});
+
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t k = 0; k < once.size(); ++k) {
+    EXPECT_EQ(once[k].feature, again[k].feature);
+    EXPECT_EQ(once[k].threshold, again[k].threshold);
+    EXPECT_EQ(once[k].value, again[k].value);
+  }
+}
+
+TEST(TreeBoosting, DrawsOtherCasesForEachTree) {
+  // Nothing sets the cases apart: seen whole, each tree would go on where the one before ended.
+  Cases cases;
+  cases.features = Eigen::MatrixXf::Zero(100, 1);
+  for (int i = 0; i < 100; ++i) cases.positive.push_back(i % 2 == 0);
+  BoostingParams params;
+  params.trees = 3;
+
+  const auto trees = boost_trees(cases, params);
+
+  const auto value = [&](std::size_t k) { return trees.at(k).value.front(); };
+  EXPECT_NE(value(0), 0.0F);
+  EXPECT_NE(value(0), value(1));
+  EXPECT_NE(value(1), value(2));
+}
+
 TEST(TreeBoosting, KeepsAwayFromLeavesOfFewCases) {
   Cases cases;
   cases.features.resize(100, 1);
