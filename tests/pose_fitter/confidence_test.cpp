@@ -176,14 +176,6 @@ TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
   EXPECT_FALSE(assess(fitted));
 }
 
-TEST(PersonConfidence, MustBeHigherWhereTheHeadIsAGuess) {
-  FittedBody fitted = doubtful_person(0.7, 0.8);
-  fitted.observation.has_colors = true;
-  EXPECT_TRUE(assess(fitted));
-  fitted.observation.guessed_head = true;
-  EXPECT_FALSE(assess(fitted));
-}
-
 TEST(PersonConfidence, FallsWithADoubtfulHeadAndAnOddPosture) {
   FittedBody fitted = standing_person();
   const Real before = person_confidence(fitted);

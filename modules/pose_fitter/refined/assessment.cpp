@@ -17,9 +17,6 @@ constexpr Real kLeastPersonConfidence = 0.7;
 /// Before a scanner the surface alone speaks: of 150 simulated rooms three got a person at 0.6 and
 /// none at 0.75; of 114 people two were lost.
 constexpr Real kLeastScannedPersonConfidence = 0.75;
-/// A body whose head is a guess must be surer: of 15 such people none lies between 0.6 and 0.8, but
-/// a wall beside a raised arm does.
-constexpr Real kLeastHeadlessConfidence = 0.8;
 /// The trees of the confidence were trained on nobody where the depth's noise is larger [m]: there
 /// a body must be surer (a thing 6.7 m from a VGA pair was told with 0.77).
 constexpr Real kMostTrainedNoiseM = 0.05, kLeastNoisyPersonConfidence = 0.9;
@@ -33,7 +30,6 @@ Real least_confidence(const FittedBody& fitted) {
   const auto distance_m = static_cast<float>(fitted.body.points[kHead].z());
   if (fitted.observation.noise.sigma_m(distance_m) > kMostTrainedNoiseM)
     return kLeastNoisyPersonConfidence;
-  if (fitted.observation.guessed_head) return kLeastHeadlessConfidence;
   return of_scanner(fitted.observation) ? kLeastScannedPersonConfidence : kLeastPersonConfidence;
 }
 
