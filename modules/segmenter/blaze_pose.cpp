@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgproc.hpp>
 
 #include "modules/segmenter/network.hpp"
 
@@ -14,22 +13,18 @@ namespace {
 
 // The network's landmarks (models/README.md).
 constexpr int kLeftEar = 7, kRightEar = 8;
-struct JointLandmark {
-  Joint joint;
-  int landmark;
-};
-constexpr std::array<JointLandmark, 12> kJointLandmarks = {{{Joint::kShoulderLeft, 11},
-                                                            {Joint::kShoulderRight, 12},
-                                                            {Joint::kElbowLeft, 13},
-                                                            {Joint::kElbowRight, 14},
-                                                            {Joint::kWristLeft, 15},
-                                                            {Joint::kWristRight, 16},
-                                                            {Joint::kHipLeft, 23},
-                                                            {Joint::kHipRight, 24},
-                                                            {Joint::kKneeLeft, 25},
-                                                            {Joint::kKneeRight, 26},
-                                                            {Joint::kAnkleLeft, 27},
-                                                            {Joint::kAnkleRight, 28}}};
+constexpr std::array<JointOutput, 12> kJointLandmarks = {{{Joint::kShoulderLeft, 11},
+                                                          {Joint::kShoulderRight, 12},
+                                                          {Joint::kElbowLeft, 13},
+                                                          {Joint::kElbowRight, 14},
+                                                          {Joint::kWristLeft, 15},
+                                                          {Joint::kWristRight, 16},
+                                                          {Joint::kHipLeft, 23},
+                                                          {Joint::kHipRight, 24},
+                                                          {Joint::kKneeLeft, 25},
+                                                          {Joint::kKneeRight, 26},
+                                                          {Joint::kAnkleLeft, 27},
+                                                          {Joint::kAnkleRight, 28}}};
 
 /// What the network tells of a person, in the pixels of its input.
 struct Landmarks {
@@ -68,10 +63,7 @@ BlazePose::BlazePose() : network_(file(), {"Identity", "Identity_4", "Identity_1
 
 ImagePose BlazePose::see(const cv::Mat3b& picture) {
   constexpr double kWhite = 255.0;
-  cv::Mat3b rgb;
-  cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
-  cv::Mat3f input(picture.rows, picture.cols, reinterpret_cast<cv::Vec3f*>(network_.input()));
-  rgb.convertTo(input, CV_32F, 1.0 / kWhite);
+  write_rgb(picture, 1.0 / kWhite, 0.0, network_.input());
   network_.run();
   const Landmarks landmarks{network_.output(0), network_.output(1)};
   ImagePose pose;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "modules/segmenter/network.hpp"
 
@@ -32,22 +31,18 @@ float visibility(float score) {
 }
 
 constexpr int kLeftEar = 3, kRightEar = 4;
-struct JointKeypoint {
-  Joint joint;
-  int keypoint;
-};
-constexpr std::array<JointKeypoint, 12> kJointKeypoints = {{{Joint::kShoulderLeft, 5},
-                                                            {Joint::kShoulderRight, 6},
-                                                            {Joint::kElbowLeft, 7},
-                                                            {Joint::kElbowRight, 8},
-                                                            {Joint::kWristLeft, 9},
-                                                            {Joint::kWristRight, 10},
-                                                            {Joint::kHipLeft, 11},
-                                                            {Joint::kHipRight, 12},
-                                                            {Joint::kKneeLeft, 13},
-                                                            {Joint::kKneeRight, 14},
-                                                            {Joint::kAnkleLeft, 15},
-                                                            {Joint::kAnkleRight, 16}}};
+constexpr std::array<JointOutput, 12> kJointKeypoints = {{{Joint::kShoulderLeft, 5},
+                                                          {Joint::kShoulderRight, 6},
+                                                          {Joint::kElbowLeft, 7},
+                                                          {Joint::kElbowRight, 8},
+                                                          {Joint::kWristLeft, 9},
+                                                          {Joint::kWristRight, 10},
+                                                          {Joint::kHipLeft, 11},
+                                                          {Joint::kHipRight, 12},
+                                                          {Joint::kKneeLeft, 13},
+                                                          {Joint::kKneeRight, 14},
+                                                          {Joint::kAnkleLeft, 15},
+                                                          {Joint::kAnkleRight, 16}}};
 
 /// Column and row of a cell.
 Eigen::Vector2f place_of(int cell) {
@@ -100,10 +95,7 @@ MoveNet::Keypoint MoveNet::find_keypoint(int person_cell, int keypoint) const {
 
 ImagePose MoveNet::see(const cv::Mat3b& picture) {
   constexpr double kMiddle = 127.5;
-  cv::Mat3b rgb;
-  cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
-  cv::Mat3f input(picture.rows, picture.cols, reinterpret_cast<cv::Vec3f*>(network_.input()));
-  rgb.convertTo(input, CV_32F, 1.0 / kMiddle, -1.0);
+  write_rgb(picture, 1.0 / kMiddle, -1.0, network_.input());
   network_.run();
   const int person = find_person();
   const Keypoint left_ear = find_keypoint(person, kLeftEar);

@@ -15,7 +15,17 @@ enum class PictureNetworkKind {
   kMoveNet     ///< move_net.hpp
 };
 
-/// Such a network, for one thread at a time.
+/// A joint and its place among what a network tells.
+struct JointOutput {
+  Joint joint;
+  int index;
+};
+
+/// Writes a picture's red, green and blue as `scale` times them plus `shift`, as a network takes
+/// them.
+void write_rgb(const cv::Mat3b& picture, double scale, double shift, float* input);
+
+/// Sees one person's joints in a picture; for one thread at a time.
 class PictureNetwork {
  public:
   PictureNetwork() = default;

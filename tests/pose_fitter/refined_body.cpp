@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/pose_fitter/refined/image_term.hpp"
+
 namespace limbcast::pose_fitter::testing {
 namespace {
 
@@ -91,6 +93,23 @@ Segment seen(const refined::BodyState& body, int occluder_u) {
   const Vec3 head = body.points[refined::kHead];
   segment.seed_m = (head - 0.09 * head.normalized()).cast<float>();
   return segment;
+}
+
+Segment colored(Segment segment) {
+  segment.range_image->is_skin.assign(segment.range_image->depth_m.size(), 0);
+  return segment;
+}
+
+ImagePose in_image(const refined::BodyState& body) {
+  ImagePose pose{1.0F, {}};
+  const float hips_z_m = static_cast<float>(body.points[index(Joint::kPelvis)].z());
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    const Eigen::Vector3f place_m =
+        refined::marked_place(body, joint, refined::ImageNetwork::kBlazePose).cast<float>();
+    pose.joints.push_back(
+        {static_cast<Joint>(joint), camera().project(place_m), 1.0F, place_m.z() - hips_z_m});
+  }
+  return pose;
 }
 
 }  // namespace limbcast::pose_fitter::testing
