@@ -199,8 +199,9 @@ struct HiddenHeadParams {
   float min_distance_m = 0.35F;
   /// Lowest log odds of a person who may hide another: behind furniture is no person.
   float min_hider_odds = 2.0F;
-  /// Lowest mean log odds of the surface's points that it is a body's. Lower: edges of cupboards.
-  float min_body_odds = -0.6F;
+  /// Lowest mean log odds of the surface's points that it is a body's. With -0.6 three people of 35
+  /// of stereo_dev/multi more have no segment; with -3 limbs of people beside it become people.
+  float min_body_odds = -2.0F;
   /// Log odds of a person added for such a place: with the limits above all of 12 such surfaces
   /// were people's (simulated groups of seed 401 and stereo_dev/multi).
   float place_odds = 3.0F;

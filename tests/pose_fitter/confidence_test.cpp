@@ -168,6 +168,14 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
   EXPECT_FALSE(assess(fitted));
 }
 
+TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
+  FittedBody fitted = doubtful_person(0.7, 0.75);
+  fitted.observation.noise.quadratic_per_m = 0.002F;
+  EXPECT_TRUE(assess(fitted));
+  fitted.observation.noise.quadratic_per_m = 0.0F;
+  EXPECT_FALSE(assess(fitted));
+}
+
 TEST(PersonConfidence, FallsWithADoubtfulHeadAndAnOddPosture) {
   FittedBody fitted = standing_person();
   const Real before = person_confidence(fitted);

@@ -19,6 +19,7 @@ class ImageTerm : public ::testing::Test {
     ImageLook look;
     look.network = network;
     look.weight = 2.0;
+    look.swap_cost = RefinedParams{}.image_swap_cost;
     look.person_score = 0.9;
     for (int joint = 0; joint < kJointCount; ++joint)
       look.joints[joint] = {marked_place(body, joint, network).normalized(), 1.0};

@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   4700 simulated frames, 1.6 GB, about half an hour on one core; sets that are there stay
+#   SIMULATED_DIR   5300 simulated frames, 1.9 GB, about half an hour on one core; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -74,5 +74,9 @@ simulate p_street_nohuman nohuman laser 200 861 "${street[@]}"
 simulate p_street_multi multi laser 80 862 --max-distance-m 9 "${street[@]}" "${coats[@]}"
 simulate p_narrow_nohuman nohuman laser 200 863 "${narrow[@]}"
 simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9 "${narrow[@]}" "${coats[@]}"
+# More of what may be taken for people.
+simulate p_laser_nohuman4 nohuman laser 200 871
+simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"
+simulate p_nohuman5 nohuman stereo 200 873
 "$bin/limbcast-train-persons" modules/pose_fitter/refined/person_trees.inc "${folders[@]}" "${recorded[@]}" \
   "$data/stereo_dev/nohuman"

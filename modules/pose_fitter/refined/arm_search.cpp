@@ -233,11 +233,7 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
 void ArmSearch::reach_seen_wrist(const Frame& arm, const SeenJoint& seen,
                                  std::vector<ArmPosture>& found) const {
   if (seen.visibility <= 0.0) return;
-  const PinholeCamera& camera = observation_.camera;
-  const int u = cvRound(camera.fx * seen.ray.x() / seen.ray.z() + camera.cx);
-  const int v = cvRound(camera.fy * seen.ray.y() / seen.ray.z() + camera.cy);
-  if (!observation_.inside(u, v)) return;
-  const float z = observation_.smooth_surface_m(u, v);
+  const float z = observation_.smooth_surface_m(seen);
   if (z > 0.0F) reach(arm, seen.ray * (z / seen.ray.z()), found);
 }
 

@@ -65,7 +65,7 @@ SideCosts side_costs(const BodyState& body, const ImageLook& look, unsigned part
     costs.as_told += image_cost(look, joint, place, params);
     costs.exchanged += image_cost(look, mirrored(joint), place, params);
   }
-  costs.exchanged += params.image_swap_cost;
+  costs.exchanged += look.swap_cost;
   return costs;
 }
 

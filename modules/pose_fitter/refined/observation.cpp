@@ -161,6 +161,8 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
     look.network = static_cast<ImageNetwork>(network);
     look.weight = segment.image_poses.size() == 1 ? params.lone_image_weight
                                                   : params.image_weight.at(network);
+    // Of a surface without colours left and right are a guess.
+    look.swap_cost = observation.has_colors ? params.image_swap_cost : 0.0;
     look.person_score = pose.person_score;
     for (const ImageJoint& joint : pose.joints) {
       const Eigen::Vector2f px = joint.px - origin_px;
@@ -218,6 +220,12 @@ float Observation::smooth_surface_m(int u, int v) const {
     }
   }
   return sum / static_cast<float>(count);
+}
+
+float Observation::smooth_surface_m(const SeenJoint& seen) const {
+  const Eigen::Vector2f px = camera.project(seen.ray.cast<float>());
+  const int u = cvRound(px.x()), v = cvRound(px.y());
+  return inside(u, v) ? smooth_surface_m(u, v) : 0.0F;
 }
 
 void PointColumns::pad() {

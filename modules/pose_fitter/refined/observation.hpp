@@ -37,6 +37,7 @@ constexpr int kImageNetworkCount = 2;
 struct ImageLook {
   ImageNetwork network = ImageNetwork::kBlazePose;
   Real weight = 0.0;        ///< of its joints against the surface
+  Real swap_cost = 0.0;     ///< of a body whose left it takes for right
   Real person_score = 0.0;  ///< how sure the network is of a person, 0 to 1
   std::array<SeenJoint, kJointCount> joints;
 };
@@ -78,6 +79,8 @@ struct Observation {
   }
   /// The surface at a pixel, averaged with its neighbours of about the same depth.
   float smooth_surface_m(int u, int v) const;
+  /// The same at the pixel where a network sees a joint; 0 = none.
+  float smooth_surface_m(const SeenJoint& seen) const;
   std::size_t at(int u, int v) const { return static_cast<std::size_t>(v) * camera.width + u; }
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "modules/pose_fitter/refined/image_start.hpp"
+
 namespace limbcast::pose_fitter::refined {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr int kFirstArmIterations = 2;
 /// Arms that are fitted further after the first steps.
 constexpr std::size_t kArmsContinued = 6;
 constexpr int kFinalIterations = 15, kFlipIterations = 12, kLegIterations = 8, kMoveIterations = 10;
+constexpr int kImageStartIterations = 25;
 /// A round of moves that wins less than this share is the last.
 constexpr Real kLeastRoundGain = 0.01;
 
@@ -139,7 +142,7 @@ PoseCandidate PoseSearch::with_arms(const BodyState& start) {
   std::array<std::vector<BodyState>, 2> arms;
   for (int side = 0; side < 2; ++side) {
     arms[side] = fitted_arms(start, side, kWithoutArms, effort_.arm_postures_per_start,
-                             params_.arms_combined);
+                             effort_.arms_combined);
     if (arms[side].empty()) arms[side].push_back(start);
   }
   PoseCandidate best{1e18, start};
@@ -218,7 +221,7 @@ bool PoseSearch::try_legs(PoseCandidate& pose) {
 bool PoseSearch::try_arm(PoseCandidate& pose, int side) {
   bool better = false;
   for (const BodyState& other : fitted_arms(pose.body, side, kAllParts & ~arm_bit(side),
-                                            effort_.arm_postures_per_move, params_.arms_combined)) {
+                                            effort_.arm_postures_per_move, effort_.arms_combined)) {
     if (!same_arm(other, pose.body, side)) better |= accept(other, kMoveIterations, pose);
   }
   return better;
@@ -255,11 +258,25 @@ void PoseSearch::choose_by_front(std::vector<PoseCandidate>& poses) {
   sort_by_cost(poses);
 }
 
+std::vector<PoseCandidate> PoseSearch::poses_in_image(const BodyState& like) {
+  std::vector<PoseCandidate> poses;
+  const std::optional<BodyState> start = body_in_image(observation_, like);
+  if (!start) return poses;
+  // The network may take left for right.
+  for (const BodyState& body : {*start, front_back_flipped(*start)}) {
+    PoseCandidate pose{0.0, body};
+    pose.cost = solver_.minimize(pose.body, final_stage(), kImageStartIterations);
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
 std::vector<PoseCandidate> PoseSearch::run() {
   std::vector<PoseCandidate> poses;
   for (const PoseCandidate& start : trunk_starts()) poses.push_back(with_arms(start.body));
+  for (PoseCandidate& pose : poses_in_image(poses.front().body)) poses.push_back(std::move(pose));
   sort_by_cost(poses);
-  const int moved_count = std::min<int>(params_.poses_moved, static_cast<int>(poses.size()));
+  const int moved_count = std::min<int>(effort_.poses_moved, static_cast<int>(poses.size()));
   for (int i = 0; i < moved_count; ++i) move(poses[i]);
   poses.insert(poses.end(), rejected_.begin(), rejected_.end());
   sort_by_cost(poses);

@@ -12,8 +12,8 @@ struct PoseCandidate {
   BodyState body;
 };
 
-/// Finds the body of least cost: from trunk and legs alone at many rotations, over arm postures, to
-/// moves that leave a wrong minimum.
+/// Finds the body of least cost: from trunk and legs alone at many rotations, over arm postures,
+/// and from the body that the image shows, to moves that leave a wrong minimum.
 class PoseSearch {
  public:
   PoseSearch(const Observation& observation, const RefinedParams& params);
@@ -30,6 +30,9 @@ class PoseSearch {
  private:
   std::vector<PoseCandidate> trunk_starts();
   PoseCandidate with_arms(const BodyState& start);
+  /// Fitted from the body that the image shows and from the same seen from the other side; its size
+  /// as of `like`. Empty where no image shows it.
+  std::vector<PoseCandidate> poses_in_image(const BodyState& like);
   void move(PoseCandidate& pose);
   void move_limbs(PoseCandidate& pose);
   void choose_by_front(std::vector<PoseCandidate>& poses);

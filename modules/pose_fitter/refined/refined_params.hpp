@@ -10,6 +10,8 @@ struct SearchEffort {
   int arm_postures_per_start = 16;  ///< tried for each arm of a start
   int arm_postures_per_move = 16;   ///< tried for each arm that moves
   int move_rounds = 3;              ///< of the moves of a pose
+  int arms_combined = 2;            ///< fitted arms of each side that are tried together
+  int poses_moved = 2;              ///< poses that the moves (flip, arms, legs) try to better
 };
 
 /// Numbers of the refined fitter. Where an origin says "tuned", it was chosen on the tuning half of
@@ -41,8 +43,8 @@ struct RefinedParams {
   /// Weight of the first where it looked alone.
   double lone_image_weight = 2.0;
   double image_limit_sigmas = 3.0;
-  /// What a body costs whose left the image takes for right, as its network does of one person in
-  /// twenty. Tuned.
+  /// What a body costs whose left the colour image takes for right, as its network does of one
+  /// person in twenty. Tuned.
   double image_swap_cost = 6.0;
   /// What a trunk turned against the face or the image costs for each unit of log odds, since
   /// neighbouring points share their errors. Tuned: of 1, 2, 4 and 8 the first two leave bodies
@@ -57,13 +59,9 @@ struct RefinedParams {
   int yaw_steps = 12;
   SearchEffort effort;
   /// Where the image shows the joints, fewer guesses find as much: joints within 10 cm, right arms
-  /// and flips of 480 simulated and recorded people as with the full effort, in three quarters of
-  /// the time.
-  SearchEffort effort_with_image{2, 8, 8, 2};
-  /// Poses that the moves (flip, arms, legs) try to better. Tuned.
-  int poses_moved = 2;
-  /// Fitted arms of each side that are tried together. Tuned.
-  int arms_combined = 2;
+  /// and flips of 400 simulated and recorded people as with the full effort, in three quarters of
+  /// the time; three poses moved find what pairs of arms found, in three quarters of that.
+  SearchEffort effort_with_image{2, 8, 8, 2, 1, 3};
   /// Arms in other directions that the found one is compared with.
   int rival_arms = 6;
   /// Directions on the sphere for the upper arm and the forearm: 60 are 27 degrees apart.

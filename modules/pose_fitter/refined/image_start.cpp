@@ -1,0 +1,92 @@
+#include "modules/pose_fitter/refined/image_start.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "common/median.hpp"
+#include "modules/pose_fitter/refined/arm_search.hpp"
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+using SeenJoints = std::array<SeenJoint, kJointCount>;
+
+/// A joint stands behind the skin by about a limb's radius [m].
+constexpr Real kJointDepthM = 0.05;
+/// The surface under a joint farther than this from the network's depth is another limb's [m].
+constexpr Real kSameLimbM = 0.25;
+constexpr Real kLeastTrunkVisibility = 0.1, kLeastAnchorVisibility = 0.3;
+constexpr std::size_t kLeastAnchors = 3;
+/// The neck's height over the middle of the shoulders, in statures.
+constexpr Real kNeckOverShoulders = 0.0726;
+
+bool sees_trunk(const SeenJoints& joints) {
+  constexpr std::array<int, 4> kTrunkCorners = {kShoulder, kShoulder + 1, kHip, kHip + 1};
+  return std::all_of(kTrunkCorners.begin(), kTrunkCorners.end(),
+                     [&](int joint) { return joints[joint].visibility > kLeastTrunkVisibility; });
+}
+
+/// How far away the hips' middle is along the optical axis [m], as most joints tell together.
+std::optional<Real> depth_of_hips_m(const Observation& observation, const SeenJoints& joints) {
+  std::vector<Real> told_m;
+  for (int joint = kShoulder; joint < kJointCount; ++joint) {
+    const Real surface_m = observation.smooth_surface_m(joints[joint]);
+    if (surface_m <= 0.0 || joints[joint].visibility < kLeastAnchorVisibility) continue;
+    told_m.push_back(surface_m + kJointDepthM - joints[joint].behind_hips_m);
+  }
+  if (told_m.size() < kLeastAnchors) return std::nullopt;
+  return median(std::move(told_m));
+}
+
+Vec3 middle(const BodyState& body, int left_point) {
+  return 0.5 * (body.points[left_point] + body.points[left_point + 1]);
+}
+
+/// Axis of the body, hands and toes, as shoulders, hips and limbs tell them.
+void complete(BodyState& body) {
+  const Vec3 up = (middle(body, kShoulder) - middle(body, kHip)).normalized();
+  const Vec3 across = body.points[kShoulder] - body.points[kShoulder + 1] + body.points[kHip] -
+                      body.points[kHip + 1];
+  const Vec3 left = (across - up * up.dot(across)).normalized();
+  body.rotation << left, up, left.cross(up);
+  const Real stature_m = body.stature_m();
+  const auto offset = [&](const Vec3& in_statures) {
+    return Vec3(body.rotation * (stature_m * in_statures));
+  };
+  body.points[kNeck] = middle(body, kShoulder) + offset(kNeckOverShoulders * Vec3::UnitY());
+  body.points[kHead] = body.points[kNeck] + offset(body_offsets()[0].mean);
+  body.points[kChest] = body.points[kNeck] + offset(body_offsets()[1].mean);
+  body.points[kPelvis] = middle(body, kHip);
+  for (int side = 0; side < 2; ++side) {
+    set_arm(body, side, {0.0, body.points[kElbow + side], body.points[kWrist + side]});
+    body.points[kToe + side] =
+        body.points[kAnkle + side] + offset({0.02 * side_sign(side), -0.03, 0.09});
+  }
+}
+
+}  // namespace
+
+std::optional<BodyState> body_in_image(const Observation& observation, const BodyState& like) {
+  if (observation.looks.empty()) return std::nullopt;
+  // The second network tells no depths.
+  const SeenJoints& joints = observation.looks.front().joints;
+  if (!sees_trunk(joints)) return std::nullopt;
+  const std::optional<Real> hips_m = depth_of_hips_m(observation, joints);
+  if (!hips_m) return std::nullopt;
+  BodyState body = like;
+  for (int joint = kShoulder; joint < kJointCount; ++joint) {
+    const SeenJoint& seen = joints[joint];
+    const Real surface_m = observation.smooth_surface_m(seen);
+    Real depth_m = *hips_m + seen.behind_hips_m;
+    if (surface_m > 0.0 && std::abs(surface_m + kJointDepthM - depth_m) < kSameLimbM)
+      depth_m = surface_m + kJointDepthM;
+    body.points[joint] = seen.ray * (depth_m / seen.ray.z());
+  }
+  complete(body);
+  return body;
+}
+
+}  // namespace limbcast::pose_fitter::refined

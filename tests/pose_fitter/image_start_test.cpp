@@ -1,0 +1,111 @@
+#include "modules/pose_fitter/refined/image_start.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "modules/pose_fitter/refined/pose_search.hpp"
+#include "tests/pose_fitter/refined_body.hpp"
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+using testing::kDegree;
+
+/// A body that looks a little to the side and points past the sensor.
+BodyState pointing_body() {
+  BodyState body = testing::standing_body(2.5, 30.0 * kDegree);
+  testing::point_with(body, 0, {0.8, -0.2, -0.6});
+  return body;
+}
+
+/// Bent forward at the hips, as who looks for something on the floor.
+BodyState bent_body(Real angle_rad) {
+  BodyState body = testing::standing_body(3.0, 0.0);
+  const Vec3 hips = body.points[kPelvis];
+  const Mat3 turn = Eigen::AngleAxis<Real>(angle_rad, body.rotation.col(0)).toRotationMatrix();
+  for (int point = 0; point < kPointCount; ++point) {
+    const bool of_legs = (point >= kHip && point < kHand) || point >= kToe;
+    if (!of_legs) body.points[point] = hips + turn * (body.points[point] - hips);
+  }
+  body.rotation = turn * body.rotation;
+  return body;
+}
+
+/// What a sensor without colours sees of it, with a network that sees `shown` in its surface.
+Segment seen_as(const BodyState& body, const BodyState& shown) {
+  Segment segment = testing::seen(body);
+  segment.image_poses = {testing::in_image(shown)};
+  return segment;
+}
+
+Observation observed(const Segment& segment) {
+  return observe(segment, testing::stamp(), RefinedParams{}).value();
+}
+
+Real error_m(const BodyState& found, const BodyState& truth, int point) {
+  return (found.points[point] - truth.points[point]).norm();
+}
+
+TEST(ImageStart, PutsTheJointsWhereImageAndSurfaceShowThem) {
+  const BodyState truth = pointing_body();
+
+  const auto start = body_in_image(observed(seen_as(truth, truth)), testing::standing_body(2.5, 0));
+
+  ASSERT_TRUE(start);
+  for (int point = 0; point < kPointCount; ++point) EXPECT_LT(error_m(*start, truth, point), 0.15);
+  EXPECT_GT(start->front().dot(truth.front()), std::cos(15.0 * kDegree));
+}
+
+TEST(ImageStart, TakesTheNetworksDepthWhereAnotherLimbCoversAJoint) {
+  BodyState truth = testing::standing_body(2.5, 0.0);
+  // A hand on the back.
+  const Vec3 hand = truth.points[kChest] + Vec3(0.0, 0.0, 0.35);
+  truth.points[kWrist] = truth.points[kHand] = hand;
+
+  const auto start = body_in_image(observed(seen_as(truth, truth)), truth);
+
+  ASSERT_TRUE(start);
+  EXPECT_NEAR(start->points[kWrist].z(), hand.z(), 0.1);
+}
+
+TEST(ImageStart, IsNoneWhereTheImageShowsNoTrunk) {
+  const BodyState body = pointing_body();
+  Observation observation = observed(seen_as(body, body));
+  observation.looks.front().joints[kHip].visibility = 0.0;
+  EXPECT_FALSE(body_in_image(observation, body));
+  observation.looks.clear();
+  EXPECT_FALSE(body_in_image(observation, body));
+}
+
+TEST(ImageStart, IsNoneWhereTheImageShowsThePersonBesideTheCloud) {
+  const BodyState body = pointing_body();
+  BodyState beside = body;
+  for (Vec3& point : beside.points) point.x() += 1.0;
+  EXPECT_FALSE(body_in_image(observed(seen_as(body, beside)), body));
+}
+
+TEST(ImageStart, FindsABentBodyThatNoUprightStartReaches) {
+  const BodyState truth = bent_body(90.0 * kDegree);
+  Segment segment = seen_as(truth, truth);
+  const auto error_of_neck_m = [&] {
+    const Observation observation = observed(segment);
+    const RefinedParams params;
+    return error_m(PoseSearch(observation, params).run().front().body, truth, kNeck);
+  };
+  EXPECT_LT(error_of_neck_m(), 0.05);
+  segment.image_poses.clear();
+  EXPECT_GT(error_of_neck_m(), 0.1);
+}
+
+TEST(ImageStart, TellsLeftFromRightByColorsOnly) {
+  const BodyState body = testing::standing_body(2.5, 0.0);
+  const Segment segment = seen_as(body, body);
+  EXPECT_EQ(observed(segment).looks.front().swap_cost, 0.0);
+  EXPECT_EQ(observed(testing::colored(segment)).looks.front().swap_cost,
+            RefinedParams{}.image_swap_cost);
+}
+
+}  // namespace
+}  // namespace limbcast::pose_fitter::refined
