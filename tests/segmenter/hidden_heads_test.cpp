@@ -188,7 +188,9 @@ TEST(HeadlessPeople, AreThoseWhoseSurfaceIsABodys) {
 TEST(HeadlessPeople, AreRejectedWhereTheSurfaceIsNone) {
   const Lattice lattice = body_at_edge();
   FoundPeople found = nobody(lattice);
-  add_headless_people(lattice, surfaces_beside(lattice, found), always_surface(-2.0F), {}, found);
+  const HiddenHeadParams params;
+  const SurfaceClassifier wall = always_surface(params.min_body_odds - 0.5F);
+  add_headless_people(lattice, surfaces_beside(lattice, found), wall, params, found);
   EXPECT_TRUE(found.heads.empty());
   ASSERT_EQ(found.rejected.size(), 1U);
   EXPECT_EQ(found.rejected[0].rejection.filter, SegmentFilter::kNotHeadShaped);
