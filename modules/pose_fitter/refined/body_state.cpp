@@ -20,6 +20,15 @@ Vec3 mirrored(const Vec3& left, int side) {
   return {side_sign(side) * left.x(), left.y(), left.z()};
 }
 
+/// Puts a point of both sides at an offset from another one, in statures in the body's frame, for
+/// the left side.
+void hang_pair(BodyState& body, int point, int from, const Vec3& left) {
+  for (int side = 0; side < 2; ++side) {
+    body.points[on_side(point, side)] = body.points[on_side(from, side)] +
+                                        body.rotation * (body.stature_m() * mirrored(left, side));
+  }
+}
+
 }  // namespace
 
 BodyState moved(const BodyState& body, const Step& step) {
@@ -55,7 +64,7 @@ BodyState rest_body(const Vec3& head, const Vec3& up, Real yaw_rad, Real log_sta
     const auto hang = [&](int point, int from, const Vec3& left) {
       body.points[on_side(point, side)] = body.points[from] + offset(mirrored(left, side));
     };
-    hang(kShoulder, kNeck, {0.102, -0.0726, 0.0067});
+    hang(kShoulder, kNeck, {0.102, -kNeckOverShoulders, 0.0067});
     hang(kElbow, on_side(kShoulder, side), {0.02, -0.146, -0.005});
     hang(kWrist, on_side(kElbow, side), {0.0, -0.146, 0.02});
     hang(kHand, on_side(kWrist, side), {0.0, -0.043, 0.005});
@@ -67,16 +76,12 @@ BodyState rest_body(const Vec3& head, const Vec3& up, Real yaw_rad, Real log_sta
 
 void set_legs(BodyState& body, Legs legs) {
   const bool standing = legs == Legs::kStanding;
-  for (int side = 0; side < 2; ++side) {
-    const auto hang = [&](int point, int from, const Vec3& left) {
-      body.points[on_side(point, side)] = body.points[on_side(from, side)] +
-                                          body.rotation * (body.stature_m() * mirrored(left, side));
-    };
-    hang(kKnee, kHip, standing ? Vec3(0.01, -0.237, 0.01) : Vec3(0.03, -0.03, 0.235));
-    hang(kAnkle, kKnee, standing ? Vec3(0.005, -0.25, -0.01) : Vec3(0.005, -0.248, 0.02));
-    hang(kToe, kAnkle, {0.02, -0.03, 0.09});
-  }
+  hang_pair(body, kKnee, kHip, standing ? Vec3(0.01, -0.237, 0.01) : Vec3(0.03, -0.03, 0.235));
+  hang_pair(body, kAnkle, kKnee, standing ? Vec3(0.005, -0.25, -0.01) : Vec3(0.005, -0.248, 0.02));
+  set_toes(body);
 }
+
+void set_toes(BodyState& body) { hang_pair(body, kToe, kAnkle, {0.02, -0.03, 0.09}); }
 
 BodyState front_back_flipped(const BodyState& body) {
   BodyState flipped = body;

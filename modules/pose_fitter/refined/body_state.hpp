@@ -25,6 +25,9 @@ struct BodyState {
 
 BodyState moved(const BodyState& body, const Step& step);
 
+/// The neck's height over the shoulders of hanging arms, in statures.
+inline constexpr Real kNeckOverShoulders = 0.0726;
+
 enum class Legs { kStanding, kSitting };
 
 /// Body with hanging arms, head at `head`, front turned by `yaw_rad` about `up` from looking at the
@@ -32,6 +35,8 @@ enum class Legs { kStanding, kSitting };
 BodyState rest_body(const Vec3& head, const Vec3& up, Real yaw_rad, Real log_stature, Legs legs);
 /// Knees, ankles and toes as in rest_body, hanging on the hips as they are.
 void set_legs(BodyState& body, Legs legs);
+/// Toes as in rest_body, hanging on the ankles as they are.
+void set_toes(BodyState& body);
 /// The same silhouette seen from the other side: left and right swapped, the front reversed.
 BodyState front_back_flipped(const BodyState& body);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "common/median.hpp"
@@ -13,6 +14,8 @@ namespace limbcast::pose_fitter::refined {
 namespace {
 
 using SeenJoints = std::array<SeenJoint, kJointCount>;
+/// Depth of each joint as the person's own surface under it tells [m]; 0 where there is none.
+using Depths = std::array<Real, kJointCount>;
 
 /// A joint stands behind the skin by about a limb's radius [m].
 constexpr Real kJointDepthM = 0.05;
@@ -20,8 +23,6 @@ constexpr Real kJointDepthM = 0.05;
 constexpr Real kSameLimbM = 0.25;
 constexpr Real kLeastTrunkVisibility = 0.1, kLeastAnchorVisibility = 0.3;
 constexpr std::size_t kLeastAnchors = 3;
-/// The neck's height over the middle of the shoulders, in statures.
-constexpr Real kNeckOverShoulders = 0.0726;
 
 bool sees_trunk(const SeenJoints& joints) {
   constexpr std::array<int, 4> kTrunkCorners = {kShoulder, kShoulder + 1, kHip, kHip + 1};
@@ -29,13 +30,21 @@ bool sees_trunk(const SeenJoints& joints) {
                      [&](int joint) { return joints[joint].visibility > kLeastTrunkVisibility; });
 }
 
-/// How far away the hips' middle is along the optical axis [m], as most joints tell together.
-std::optional<Real> depth_of_hips_m(const Observation& observation, const SeenJoints& joints) {
-  std::vector<Real> told_m;
+Depths depths_by_surface_m(const Observation& observation, const SeenJoints& joints) {
+  Depths depths_m{};
   for (int joint = kShoulder; joint < kJointCount; ++joint) {
     const Real surface_m = observation.smooth_surface_m(joints[joint]);
-    if (surface_m <= 0.0 || joints[joint].visibility < kLeastAnchorVisibility) continue;
-    told_m.push_back(surface_m + kJointDepthM - joints[joint].behind_hips_m);
+    if (surface_m > 0.0) depths_m[joint] = surface_m + kJointDepthM;
+  }
+  return depths_m;
+}
+
+/// How far away the hips' middle is along the optical axis [m], as most joints tell together.
+std::optional<Real> depth_of_hips_m(const SeenJoints& joints, const Depths& by_surface_m) {
+  std::vector<Real> told_m;
+  for (int joint = kShoulder; joint < kJointCount; ++joint) {
+    if (by_surface_m[joint] <= 0.0 || joints[joint].visibility < kLeastAnchorVisibility) continue;
+    told_m.push_back(by_surface_m[joint] - joints[joint].behind_hips_m);
   }
   if (told_m.size() < kLeastAnchors) return std::nullopt;
   return median(std::move(told_m));
@@ -60,11 +69,9 @@ void complete(BodyState& body) {
   body.points[kHead] = body.points[kNeck] + offset(body_offsets()[0].mean);
   body.points[kChest] = body.points[kNeck] + offset(body_offsets()[1].mean);
   body.points[kPelvis] = middle(body, kHip);
-  for (int side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2; ++side)
     set_arm(body, side, {0.0, body.points[kElbow + side], body.points[kWrist + side]});
-    body.points[kToe + side] =
-        body.points[kAnkle + side] + offset({0.02 * side_sign(side), -0.03, 0.09});
-  }
+  set_toes(body);
 }
 
 }  // namespace
@@ -74,15 +81,16 @@ std::optional<BodyState> body_in_image(const Observation& observation, const Bod
   // The second network tells no depths.
   const SeenJoints& joints = observation.looks.front().joints;
   if (!sees_trunk(joints)) return std::nullopt;
-  const std::optional<Real> hips_m = depth_of_hips_m(observation, joints);
+  const Depths by_surface_m = depths_by_surface_m(observation, joints);
+  const std::optional<Real> hips_m = depth_of_hips_m(joints, by_surface_m);
   if (!hips_m) return std::nullopt;
   BodyState body = like;
   for (int joint = kShoulder; joint < kJointCount; ++joint) {
     const SeenJoint& seen = joints[joint];
-    const Real surface_m = observation.smooth_surface_m(seen);
-    Real depth_m = *hips_m + seen.behind_hips_m;
-    if (surface_m > 0.0 && std::abs(surface_m + kJointDepthM - depth_m) < kSameLimbM)
-      depth_m = surface_m + kJointDepthM;
+    const Real rough_m = *hips_m + seen.behind_hips_m;
+    const bool own_surface =
+        by_surface_m[joint] > 0.0 && std::abs(by_surface_m[joint] - rough_m) < kSameLimbM;
+    const Real depth_m = own_surface ? by_surface_m[joint] : rough_m;
     body.points[joint] = seen.ray * (depth_m / seen.ray.z());
   }
   complete(body);
