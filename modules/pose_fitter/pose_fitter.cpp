@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <utility>
 #include <vector>
 
 #include "modules/pose_fitter/paper/paper_fitter.hpp"
@@ -14,7 +15,9 @@ PoseFitter::PoseFitter(const PoseFitterOptions& options) {
   if (options.method == "paper") {
     fit_one_ = [fitter = PaperFitter(to_paper_params(options))](const Segment& segment,
                                                                 const Stamp& stamp) {
-      return fitter.fit(segment, stamp);
+      std::optional<PersonCandidate> candidate;
+      if (auto pose = fitter.fit(segment, stamp)) candidate.emplace().pose = std::move(*pose);
+      return candidate;
     };
   } else {
     fit_one_ = [fitter = RefinedFitter(options.refined)](const Segment& segment,
@@ -25,15 +28,16 @@ PoseFitter::PoseFitter(const PoseFitterOptions& options) {
 }
 
 BodyPoses PoseFitter::fit(const Segments& segments) const {
-  std::vector<std::optional<BodyPose>> fitted(segments.segments.size());
+  std::vector<std::optional<PersonCandidate>> fitted(segments.segments.size());
   tbb::parallel_for(std::size_t{0}, fitted.size(), [&](std::size_t i) {
     const Segment& segment = segments.segments[i];
     if (segment.valid()) fitted[i] = fit_one_(segment, segments.stamp);
   });
-  BodyPoses poses{segments.stamp, {}};
-  for (std::optional<BodyPose>& pose : fitted) {
-    if (pose) poses.persons.push_back(std::move(*pose));
+  std::vector<PersonCandidate> candidates;
+  for (std::optional<PersonCandidate>& candidate : fitted) {
+    if (candidate) candidates.push_back(std::move(*candidate));
   }
+  BodyPoses poses{segments.stamp, leave_out_doubtful(std::move(candidates))};
   remove_double_reports(poses.persons);
   return poses;
 }

@@ -5,6 +5,7 @@
 
 #include "common/cloud/segment.hpp"
 #include "common/human_model/body_pose.hpp"
+#include "modules/pose_fitter/company.hpp"
 #include "modules/pose_fitter/options.hpp"
 
 namespace limbcast::pose_fitter {
@@ -20,7 +21,7 @@ class PoseFitter {
   BodyPoses fit(const Segments& segments) const;
 
  private:
-  std::function<std::optional<BodyPose>(const Segment&, const Stamp&)> fit_one_;
+  std::function<std::optional<PersonCandidate>(const Segment&, const Stamp&)> fit_one_;
 };
 
 }  // namespace limbcast::pose_fitter

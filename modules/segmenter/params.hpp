@@ -161,10 +161,10 @@ struct ClassifierParams {
   /// others, at the image's edge, on sofas.
   float sure_head_odds = 0.5F;
   /// Between this and a sure head's log odds the colour image is asked too, of so many candidates
-  /// at most: each takes 10 ms. From -3 on, and six of them, 3 of 270 simulated people more are
-  /// found, but one more is invented in 160 rooms.
-  float min_asked_odds = -2.0F;
-  int max_asked = 4;
+  /// at most: each takes 10 ms. From -2 on, and four of them, one of 80 simulated people up to 5.2 m
+  /// away less is found.
+  float min_asked_odds = -3.0F;
+  int max_asked = 6;
   /// Lowest log odds of a skin-coloured part that the template does not take for a head.
   float min_skin_head_odds = 0.0F;
   /// Lowest log odds, by its cluster, of a person. Low: the fitted body tells more. With -1 one in

@@ -102,11 +102,24 @@ class ToldDirections : public Confidence {
   }
   std::vector<Side> sides() const {
     std::vector<Side> sides;
-    const auto pose =
+    const auto told =
         assess({observation_, body_, 0.0, evidence_, gather_person_evidence(body_, observation_)});
-    if (!pose) return sides;
-    for (const Pointing& pointing : pose->pointing) sides.push_back(pointing.side);
+    if (!told) return sides;
+    for (const Pointing& pointing : told->pose.pointing) sides.push_back(pointing.side);
     return sides;
+  }
+  /// Takes rivals for one arm that are so good that its confidence lies between `least` and `most`.
+  void make_as_sure(int side, Real least, Real most) {
+    ArmEvidence& arm = evidence_.arms[side];
+    for (const Real sigma_rad : {0.03, 0.1, 0.3}) {
+      arm = {/*support=*/15.0, /*gap=*/15.0,     /*bend_rad=*/0.1,
+             sigma_rad,        /*forwards=*/0.0, /*outwards=*/1.0};
+      for (; arm.gap >= 0.0; arm.gap -= 0.05) {
+        const Real confidence = direction_confidence(body_, side, evidence_);
+        if (confidence > least && confidence < most) return;
+      }
+    }
+    ADD_FAILURE() << "no arm is as sure as " << least << " to " << most;
   }
 
   Observation observation_;
@@ -116,11 +129,15 @@ TEST_F(ToldDirections, AreOfBothArmsWhereBothAreSure) {
   EXPECT_EQ(sides(), (std::vector<Side>{Side::kLeft, Side::kRight}));
 }
 
-TEST_F(ToldDirections, AreNoneBesideAnUnsureArmThatIsMoreRaised) {
-  evidence_.arms[0] = {/*support=*/15.0, /*gap=*/0.0,
-                       /*bend_rad=*/0.1, /*sigma_rad=*/0.3,
-                       /*forwards=*/0.0, /*outwards=*/1.0};
+TEST_F(ToldDirections, AreNoneOfAHardlySureArmBesideAnUnsureOneThatIsMoreRaised) {
+  make_as_sure(0, 0.3, 0.7);
+  make_as_sure(1, 0.9, 0.97);
   EXPECT_TRUE(sides().empty());
+}
+
+TEST_F(ToldDirections, AreOfTheSureArmBesideAnUnsureOneThatIsMoreRaised) {
+  make_as_sure(0, 0.3, 0.7);
+  EXPECT_EQ(sides(), std::vector<Side>{Side::kRight});
 }
 
 TEST_F(ToldDirections, IncludeTheOtherArmWhereTheMoreRaisedOneIsSurelyWrong) {
@@ -156,6 +173,11 @@ FittedBody doubtful_person(Real least, Real most) {
   return fitted;
 }
 
+bool told_alone(const FittedBody& fitted) {
+  const auto told = assess(fitted);
+  return told && !told->needs_company;
+}
+
 TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
   EXPECT_GT(person_confidence(standing_person()), 0.9);
 }
@@ -163,17 +185,24 @@ TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
 TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
   FittedBody fitted = doubtful_person(0.7, 0.9);
   fitted.observation.has_colors = true;
-  EXPECT_TRUE(assess(fitted));
+  EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise.constant_m = 0.06F;
-  EXPECT_FALSE(assess(fitted));
+  EXPECT_FALSE(told_alone(fitted));
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
   FittedBody fitted = doubtful_person(0.7, 0.75);
   fitted.observation.noise.quadratic_per_m = 0.002F;
-  EXPECT_TRUE(assess(fitted));
+  EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise.quadratic_per_m = 0.0F;
-  EXPECT_FALSE(assess(fitted));
+  EXPECT_FALSE(told_alone(fitted));
+}
+
+TEST(PersonConfidence, MayBeLowerInCompany) {
+  const auto doubtful = assess(doubtful_person(0.5, 0.7));
+  ASSERT_TRUE(doubtful);
+  EXPECT_TRUE(doubtful->needs_company);
+  EXPECT_FALSE(assess(doubtful_person(0.2, 0.5)));
 }
 
 TEST(PersonConfidence, FallsWithADoubtfulHeadAndAnOddPosture) {

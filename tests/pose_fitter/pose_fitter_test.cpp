@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/pose_fitter/company.hpp"
 #include "modules/pose_fitter/same_person.hpp"
 #include "tests/pose_fitter/synthetic_figure.hpp"
 
@@ -28,6 +29,14 @@ std::vector<std::int32_t> ids(const std::vector<BodyPose>& persons) {
   std::vector<std::int32_t> found;
   for (const BodyPose& person : persons) found.push_back(person.id);
   return found;
+}
+
+TEST(DoubtfulPeople, AreToldBesideASurePersonOnly) {
+  const PersonCandidate doubtful{body_at(1, 0.0F, 0.6F), true};
+  const PersonCandidate sure{body_at(2, 1.0F, 0.95F)}, hardly{body_at(3, 1.0F, 0.8F)};
+  EXPECT_EQ(ids(leave_out_doubtful({doubtful, sure})), (std::vector<std::int32_t>{1, 2}));
+  EXPECT_EQ(ids(leave_out_doubtful({doubtful, hardly})), (std::vector<std::int32_t>{3}));
+  EXPECT_TRUE(leave_out_doubtful({doubtful, doubtful}).empty());
 }
 
 TEST(DoubleReports, KeepTheMoreConfidentOfTwoInOnePlace) {

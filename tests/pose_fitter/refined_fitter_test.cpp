@@ -27,12 +27,18 @@ float angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
          static_cast<float>(kDegree);
 }
 
+std::optional<BodyPose> fit(const Segment& segment, const Stamp& stamp = testing::stamp(),
+                            const RefinedParams& params = {}) {
+  const auto candidate = RefinedFitter(params).fit(segment, stamp);
+  return candidate ? std::optional(candidate->pose) : std::nullopt;
+}
+
 class RefinedFitterAtYaw : public ::testing::TestWithParam<int> {};
 
 TEST_P(RefinedFitterAtYaw, FindsTheJointsOfAStandingBodyOnTheirSides) {
   const BodyState body = testing::standing_body(2.5, GetParam() * kDegree);
 
-  const auto pose = RefinedFitter().fit(testing::seen(body), testing::stamp());
+  const auto pose = fit(testing::seen(body));
 
   ASSERT_TRUE(pose);
   for (const Joint joint :
@@ -52,7 +58,7 @@ TEST(RefinedFitter, TellsWhereAndWithWhichArmAPersonPoints) {
         Eigen::Vector3d(side == 0 ? 1.0 : -1.0, -0.1, -0.6).normalized();
     testing::point_with(body, side, direction);
 
-    const auto pose = RefinedFitter().fit(testing::seen(body), testing::stamp());
+    const auto pose = fit(testing::seen(body));
 
     ASSERT_TRUE(pose);
     ASSERT_EQ(pose->pointing.size(), 1U);
@@ -63,8 +69,7 @@ TEST(RefinedFitter, TellsWhereAndWithWhichArmAPersonPoints) {
 }
 
 TEST(RefinedFitter, ReportsNoPointingWhenArmsHang) {
-  const auto pose =
-      RefinedFitter().fit(testing::seen(testing::standing_body(2.5, 0.0)), testing::stamp());
+  const auto pose = fit(testing::seen(testing::standing_body(2.5, 0.0)));
 
   ASSERT_TRUE(pose);
   EXPECT_TRUE(pose->pointing.empty());
@@ -76,7 +81,7 @@ TEST(RefinedFitter, ReportsNoDirectionOfAnArmBehindABoard) {
   // The left shoulder stands 0.17 m to the image's right: the board begins there.
   const int board_u = 320 + static_cast<int>(520.0 * 0.17 / 2.5);
 
-  const auto pose = RefinedFitter().fit(testing::seen(body, board_u), testing::stamp());
+  const auto pose = fit(testing::seen(body, board_u));
 
   ASSERT_TRUE(pose);
   for (const Pointing& pointing : pose->pointing) EXPECT_NE(pointing.side, Side::kLeft);
@@ -87,7 +92,7 @@ TEST(RefinedFitter, KeepsTheBodyOutOfFreeSpace) {
   testing::point_with(body, 1, {-1.0, 0.0, -0.2});
   const Segment segment = testing::seen(body);
 
-  const auto pose = RefinedFitter().fit(segment, testing::stamp());
+  const auto pose = fit(segment);
 
   ASSERT_TRUE(pose);
   const RangeImage& image = *segment.range_image;
@@ -104,7 +109,7 @@ TEST(RefinedFitter, TurnsABodyToTheSensorWhereAFaceIsSeen) {
   Segment segment = testing::colored(testing::seen(testing::standing_body(2.5, 180.0 * kDegree)));
   // Who faces the sensor has the left arm at the image's right.
   const auto left_m = [&] {
-    const auto pose = RefinedFitter().fit(segment, testing::stamp());
+    const auto pose = fit(segment);
     EXPECT_TRUE(pose);
     return (*pose)[Joint::kShoulderLeft].position_m.x() -
            (*pose)[Joint::kShoulderRight].position_m.x();
@@ -123,7 +128,7 @@ TEST(RefinedFitter, TurnsABodyToTheSideThatTheImageShows) {
     RefinedParams params;
     // Surer than any network, so that it is told what the image shows, however well the shape fits.
     params.image_side_log_odds = 40.0;
-    const auto pose = RefinedFitter(params).fit(segment, testing::stamp());
+    const auto pose = fit(segment, testing::stamp(), params);
     EXPECT_TRUE(pose);
     // Who looks to the image's right has the left shoulder farther away.
     return (*pose)[Joint::kShoulderLeft].position_m.z() -
@@ -137,10 +142,9 @@ TEST(RefinedFitter, GivesTheSamePoseEveryTime) {
   BodyState body = testing::standing_body(3.0, 30.0 * kDegree);
   testing::point_with(body, 0, {1.0, -0.2, -0.5});
   const Segment segment = testing::seen(body);
-  const RefinedFitter fitter;
 
-  const auto first = fitter.fit(segment, testing::stamp());
-  const auto second = fitter.fit(segment, testing::stamp());
+  const auto first = fit(segment);
+  const auto second = fit(segment);
 
   ASSERT_TRUE(first && second);
   for (int i = 0; i < kJointCount; ++i) {
@@ -160,7 +164,7 @@ TEST(RefinedFitter, AnswersInTheStampsFrameWhenTheImageIsTurned) {
   Stamp stamp = testing::stamp();
   stamp.gravity.down = turned * stamp.gravity.down;
 
-  const auto pose = RefinedFitter().fit(segment, stamp);
+  const auto pose = fit(segment, stamp);
 
   ASSERT_TRUE(pose);
   const Eigen::Vector3f head = turned * body.points[refined::kHead].cast<float>();
@@ -172,7 +176,7 @@ TEST(RefinedFitter, FitsPointsWithoutARangeImage) {
   Segment segment = testing::seen(body);
   segment.range_image.reset();
 
-  const auto pose = RefinedFitter().fit(segment, testing::stamp());
+  const auto pose = fit(segment);
 
   ASSERT_TRUE(pose);
   EXPECT_LT(error_m(*pose, Joint::kHead, body), 0.1F);
@@ -181,10 +185,10 @@ TEST(RefinedFitter, FitsPointsWithoutARangeImage) {
 
 TEST(RefinedFitter, FindsNobodyInTooFewPoints) {
   Segment segment;
-  EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
+  EXPECT_FALSE(fit(segment));
   segment.seed_m = {0.0F, 0.0F, 2.0F};
   segment.points_m.assign(10, segment.seed_m);
-  EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
+  EXPECT_FALSE(fit(segment));
 }
 
 TEST(RefinedFitter, FindsNobodyInAWall) {
@@ -192,7 +196,7 @@ TEST(RefinedFitter, FindsNobodyInAWall) {
   segment.range_image->depth_m.assign(segment.range_image->depth_m.size(), 2.5F);
   segment.range_image->labels.assign(segment.range_image->labels.size(), PixelLabel::kPerson);
 
-  EXPECT_FALSE(RefinedFitter().fit(segment, testing::stamp()));
+  EXPECT_FALSE(fit(segment));
 }
 
 TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {

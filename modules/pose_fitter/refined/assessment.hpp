@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "common/human_model/body_pose.hpp"
+#include "modules/pose_fitter/company.hpp"
 #include "modules/pose_fitter/pointing.hpp"
 #include "modules/pose_fitter/refined/fitted_body.hpp"
 
@@ -14,6 +14,6 @@ inline constexpr PointingParams kPointingRule{/*max_elbow_bend_deg=*/45.0, /*min
 
 /// Turns a fitted body and what speaks for it into what is told: which joints, how surely, who
 /// points where; nothing when it is no believable person. In the range image's frame.
-std::optional<BodyPose> assess(const FittedBody& fitted);
+std::optional<PersonCandidate> assess(const FittedBody& fitted);
 
 }  // namespace limbcast::pose_fitter::refined

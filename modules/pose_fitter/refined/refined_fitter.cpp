@@ -17,16 +17,18 @@ void rotate(const Eigen::Matrix3f& rotation, BodyPose& pose) {
 
 }  // namespace
 
-std::optional<BodyPose> RefinedFitter::fit(const Segment& segment, const Stamp& stamp) const {
+std::optional<PersonCandidate> RefinedFitter::fit(const Segment& segment,
+                                                  const Stamp& stamp) const {
   const std::optional<refined::FittedBody> fitted = refined::fit_body(segment, stamp, params_);
   if (!fitted) return std::nullopt;
   const refined::Observation& observation = fitted->observation;
-  std::optional<BodyPose> pose = refined::assess(*fitted);
-  if (!pose) return std::nullopt;
-  rotate(observation.frame_from_image, *pose);
-  pose->id = segment.id;
-  pose->error = static_cast<float>(fitted->cost / static_cast<double>(observation.fine.size()));
-  return pose;
+  std::optional<PersonCandidate> candidate = refined::assess(*fitted);
+  if (!candidate) return std::nullopt;
+  BodyPose& pose = candidate->pose;
+  rotate(observation.frame_from_image, pose);
+  pose.id = segment.id;
+  pose.error = static_cast<float>(fitted->cost / static_cast<double>(observation.fine.size()));
+  return candidate;
 }
 
 }  // namespace limbcast::pose_fitter

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "common/cloud/segment.hpp"
-#include "common/human_model/body_pose.hpp"
+#include "modules/pose_fitter/company.hpp"
 #include "modules/pose_fitter/refined/refined_params.hpp"
 
 namespace limbcast::pose_fitter {
@@ -14,8 +14,8 @@ class RefinedFitter {
  public:
   explicit RefinedFitter(const RefinedParams& params = {}) : params_(params) {}
 
-  /// The pose in the stamp's frame, or nothing where no believable person fits.
-  std::optional<BodyPose> fit(const Segment& segment, const Stamp& stamp) const;
+  /// A person in the stamp's frame, or nothing where no believable person fits.
+  std::optional<PersonCandidate> fit(const Segment& segment, const Stamp& stamp) const;
 
  private:
   RefinedParams params_;
