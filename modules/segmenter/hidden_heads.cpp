@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace limbcast::segmenter {
 namespace {
@@ -179,6 +180,56 @@ bool near_a_head(const std::vector<HeadCandidate>& heads, const Eigen::Vector3f&
   });
 }
 
+/// Surfaces of a body's size that are as high as this and stand apart from all who were found.
+std::vector<Extent> free_extents(const Lattice& lattice, const Surfaces& surfaces,
+                                 const FoundPeople& found, const HiddenHeadParams& params,
+                                 float min_height_m) {
+  std::vector<Extent> extents;
+  for (std::vector<std::uint32_t>& points :
+       points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
+    Extent extent = measure(lattice, std::move(points));
+    if (extent.top_m - extent.bottom_m >= min_height_m &&
+        !near_a_head(found.heads, extent.mean_m, params.min_distance_m))
+      extents.push_back(std::move(extent));
+  }
+  return extents;
+}
+
+HeadlessSurface with_head(const Lattice& lattice, const Eigen::Vector3f& head_m, Extent extent) {
+  HeadlessSurface surface;
+  surface.head.center_m = head_m;
+  surface.head.surface_m = head_surface(lattice, head_m);
+  surface.head.kind = SeedKind::kBody;
+  surface.points = std::move(extent.points);
+  return surface;
+}
+
+std::vector<HeadlessSurface> largest_first(std::vector<HeadlessSurface> surfaces) {
+  std::stable_sort(surfaces.begin(), surfaces.end(),
+                   [](const HeadlessSurface& a, const HeadlessSurface& b) {
+                     return a.points.size() > b.points.size();
+                   });
+  return surfaces;
+}
+
+/// Log odds of a body, and the least that is taken for one.
+struct Judgement {
+  float odds = 0.0F, least = 0.0F;
+};
+
+/// By its depths alone: only where a head would be out of sight, which tells much itself.
+Judgement judge_by_depths(float depth_odds, const HiddenHeadParams& params) {
+  return {depth_odds + params.place_odds, params.min_body_odds + params.place_odds};
+}
+
+Judgement judge_by_image(float depth_odds, const SeenBody& seen, const HiddenHeadParams& params) {
+  const float score_odds =
+      std::clamp(seen.score_odds, -params.max_score_odds, params.max_score_odds);
+  return {params.base_odds + params.depth_odds * depth_odds + params.score_odds * score_odds +
+              params.joint_odds * seen.visible_joints,
+          params.min_seen_odds};
+}
+
 }  // namespace
 
 std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
@@ -188,26 +239,27 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
   if (!lattice.frame.ground_known) return {};
   const View view(lattice, found, params);
   std::vector<HeadlessSurface> headless;
-  for (std::vector<std::uint32_t>& points :
-       points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
-    const Extent extent = measure(lattice, std::move(points));
-    if (extent.top_m - extent.bottom_m < params.min_height_m ||
-        near_a_head(found.heads, extent.mean_m, params.min_distance_m))
-      continue;
+  for (Extent& extent : free_extents(lattice, surfaces, found, params, params.min_height_m)) {
     const auto head_m = guess_head(view, extent, params);
     if (!head_m || near_a_head(found.heads, *head_m, params.min_distance_m)) continue;
-    HeadlessSurface candidate;
-    candidate.head.center_m = *head_m;
-    candidate.head.surface_m = head_surface(lattice, *head_m);
-    candidate.head.kind = SeedKind::kBody;
-    candidate.points = extent.points;
-    headless.push_back(std::move(candidate));
+    headless.push_back(with_head(lattice, *head_m, std::move(extent)));
   }
-  std::stable_sort(headless.begin(), headless.end(),
-                   [](const HeadlessSurface& a, const HeadlessSurface& b) {
-                     return a.points.size() > b.points.size();
-                   });
-  return headless;
+  return largest_first(std::move(headless));
+}
+
+std::vector<HeadlessSurface> find_body_parts(const Lattice& lattice, const Surfaces& surfaces,
+                                             const FoundPeople& found,
+                                             const HiddenHeadParams& params) {
+  if (!lattice.frame.ground_known) return {};
+  std::vector<HeadlessSurface> parts;
+  for (Extent& extent : free_extents(lattice, surfaces, found, params, params.min_part_height_m)) {
+    const float height_m =
+        extent.top_m > params.min_shoulder_m ? extent.top_m : params.head_heights_m.front();
+    const Eigen::Vector3f head_m(extent.mean_m.x(), extent.mean_m.y() + params.trunk_depth_m,
+                                 height_m);
+    parts.push_back(with_head(lattice, head_m, std::move(extent)));
+  }
+  return largest_first(std::move(parts));
 }
 
 std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Surfaces& surfaces,
@@ -227,14 +279,27 @@ std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Sur
 
 void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
                          const SurfaceClassifier& classifier, const HiddenHeadParams& params,
-                         FoundPeople& found) {
+                         FoundPeople& found, const BodyOpinion& opinion) {
   const auto first = static_cast<std::ptrdiff_t>(found.heads.size());
-  for (const HeadlessSurface& surface : find_headless_surfaces(lattice, surfaces, found, params)) {
-    const float odds = classifier.mean_odds(lattice, surface.points);
-    if (odds < params.min_body_odds) {
-      found.rejected.push_back(
-          {surface.head,
-           {SegmentFilter::kNotHeadShaped, probability(odds), probability(params.min_body_odds)}});
+  int asked = 0;
+  for (HeadlessSurface& surface : opinion
+                                      ? find_body_parts(lattice, surfaces, found, params)
+                                      : find_headless_surfaces(lattice, surfaces, found, params)) {
+    const float depth_odds = classifier.mean_odds(lattice, surface.points);
+    Judgement judgement = judge_by_depths(depth_odds, params);
+    if (opinion) {
+      if (depth_odds < params.min_part_odds || asked == params.max_asked) continue;
+      ++asked;
+      const std::optional<SeenBody> seen = opinion(surface);
+      if (!seen) continue;
+      judgement = judge_by_image(depth_odds, *seen, params);
+      surface.head.center_m = seen->head_m;
+      surface.head.surface_m = head_surface(lattice, seen->head_m);
+    }
+    if (judgement.odds < judgement.least) {
+      found.rejected.push_back({surface.head,
+                                {SegmentFilter::kNotHeadShaped, probability(judgement.odds),
+                                 probability(judgement.least)}});
       continue;
     }
     // Somebody before a body may part it: its other surfaces are the same person's.
@@ -246,7 +311,7 @@ void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
     for (const std::uint32_t i : surface.points) found.labels[i] = label;
     if (known != found.heads.end()) continue;
     found.heads.push_back(surface.head);
-    found.person_odds.push_back(odds + params.place_odds);
+    found.person_odds.push_back(judgement.odds);
   }
 }
 

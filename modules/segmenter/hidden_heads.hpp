@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "modules/segmenter/lattice.hpp"
@@ -25,13 +27,29 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
                                                     const FoundPeople& found,
                                                     const HiddenHeadParams& params);
 
+/// Smaller ones too, and whether or not the head that is guessed would be out of sight.
+std::vector<HeadlessSurface> find_body_parts(const Lattice& lattice, const Surfaces& surfaces,
+                                             const FoundPeople& found,
+                                             const HiddenHeadParams& params);
+
+/// What the colour image shows of the body that a surface may be a part of.
+struct SeenBody {
+  Eigen::Vector3f head_m;   ///< centre of the head, in sight or not, in the lattice's level frame
+  float score_odds = 0.0F;  ///< log odds that somebody is there
+  float visible_joints = 0.0F;  ///< how many are in sight: the sum of their visibilities
+};
+
+/// Nothing where the image does not tell.
+using BodyOpinion = std::function<std::optional<SeenBody>(const HeadlessSurface&)>;
+
 /// Surfaces that nobody has and that are as high and wide as a body, with the head on top of them.
 std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Surfaces& surfaces,
                                                const WholeBodyParams& params);
 
 /// Adds those that are a body's to the people who were found, and the others to the rejected.
+/// Without an image's opinion the head must be out of sight: else it would have been found.
 void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
                          const SurfaceClassifier& classifier, const HiddenHeadParams& params,
-                         FoundPeople& found);
+                         FoundPeople& found, const BodyOpinion& opinion = nullptr);
 
 }  // namespace limbcast::segmenter

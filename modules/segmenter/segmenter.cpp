@@ -198,7 +198,8 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
     surfaces = find_surfaces(scene.lattice, surface, &people.labels);
   }
   if (scene.cloud.organized())
-    add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, people);
+    add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, people,
+                        body_opinion(scene, people));
   for (std::size_t k = 0; k < people.heads.size(); ++k)
     result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {
@@ -206,6 +207,25 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
     reject(rejected.rejection, result.segments.back());
   }
   return labels_of_cloud(scene, people.labels);
+}
+
+BodyOpinion Segmenter::body_opinion(const Scene& scene, const FoundPeople& people) const {
+  if (!params_.pose_network.enabled || !has_image(scene.cloud)) return nullptr;
+  return [&](const HeadlessSurface& surface) -> std::optional<SeenBody> {
+    const LevelFrame& frame = scene.lattice.frame;
+    const auto label = static_cast<std::int16_t>(people.heads.size());
+    std::vector<std::int16_t> labels = people.labels;
+    for (const std::uint32_t i : surface.points) labels[i] = label;
+    labels = labels_of_cloud(scene, labels);
+    const Eigen::Vector3f head_m = frame.to_sensor(surface.head.center_m);
+    const auto pose = pose_network_.look(scene.cloud, {labels, label, head_m}, down_of(frame));
+    if (!pose) return std::nullopt;
+    SeenBody seen;
+    seen.head_m = frame.to_level(marked_head(*pose, *scene.cloud.camera, head_m.z()));
+    seen.score_odds = log_odds(pose->person_score);
+    for (const ImageJoint& joint : pose->joints) seen.visible_joints += joint.visibility;
+    return seen;
+  };
 }
 
 std::optional<float> Segmenter::image_head_odds(const Scene& scene,

@@ -9,6 +9,7 @@
 #include "modules/segmenter/body_classifier.hpp"
 #include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/head_classifier.hpp"
+#include "modules/segmenter/hidden_heads.hpp"
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/params.hpp"
 #include "modules/segmenter/people_search.hpp"
@@ -55,6 +56,9 @@ class Segmenter {
                                           Segments& result) const;
   /// Log odds of a head, by the depths around it and by what the colour image shows beneath it.
   std::optional<float> image_head_odds(const Scene& scene, const HeadCandidate& head) const;
+  /// What the colour image shows where a surface may be a body's whom none of `people` is; it looks
+  /// at `people` as they are when it is asked. Empty without an image.
+  BodyOpinion body_opinion(const Scene& scene, const FoundPeople& people) const;
   /// Heads of bodies that nobody has and that the network of poses takes for people.
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
   std::vector<std::int16_t> labels_of_cloud(const Scene& scene,

@@ -26,7 +26,8 @@ using namespace limbcast::pose_fitter;
 using refined::PersonFeatures;
 using refined::Tree;
 
-/// The segmenter's limit of a head's log odds is lower by this: more things to tell people from.
+/// The segmenter's limits of the log odds of heads and of bodies without one are lower by this:
+/// more things to tell people from.
 constexpr float kLowerHeadOdds = 1.0F;
 
 struct Case {
@@ -37,6 +38,7 @@ struct Case {
 segmenter::Params eager_params() {
   segmenter::Params params;
   params.classifier.min_head_odds -= kLowerHeadOdds;
+  params.hidden_heads.min_seen_odds -= kLowerHeadOdds;
   return params;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "tests/segmenter/drawn_scene.hpp"
@@ -194,6 +196,61 @@ TEST(HeadlessPeople, AreRejectedWhereTheSurfaceIsNone) {
   EXPECT_TRUE(found.heads.empty());
   ASSERT_EQ(found.rejected.size(), 1U);
   EXPECT_EQ(found.rejected[0].rejection.filter, SegmentFilter::kNotHeadShaped);
+}
+
+/// What is found of a surface whose depths tell nothing when the image shows this.
+FoundPeople find_in_image(const Lattice& lattice, const BodyOpinion& opinion,
+                          float depth_odds = 0.0F) {
+  FoundPeople found = nobody(lattice);
+  add_headless_people(lattice, surfaces_beside(lattice, found), always_surface(depth_odds), {},
+                      found, opinion);
+  return found;
+}
+
+/// Half of a body, whose head would be in sight.
+Lattice part_in_sight() { return body_in_sight(kShoulder_m, -0.3F); }
+
+TEST(HeadlessPeople, AreThoseWhomTheImageShowsWhetherTheirHeadIsInSightOrNot) {
+  const Eigen::Vector3f head_m(0.1F, kBody_m + 0.05F, 1.65F);
+  const auto somebody = [&](const HeadlessSurface&) {
+    return SeenBody{head_m, /*score_odds=*/4.0F, /*visible_joints=*/10.0F};
+  };
+  EXPECT_TRUE(find(part_in_sight()).empty());
+  const FoundPeople found = find_in_image(part_in_sight(), somebody);
+  ASSERT_EQ(found.heads.size(), 1U);
+  EXPECT_EQ(found.heads[0].kind, SeedKind::kBody);
+  EXPECT_EQ(found.heads[0].center_m, head_m);
+  EXPECT_EQ(found.labels[index_at(part_in_sight(), 0.0F, 0.0F)], 0);
+}
+
+TEST(HeadlessPeople, AreNoneWhereTheImageShowsNobody) {
+  const auto nobody_there = [](const HeadlessSurface& surface) {
+    return SeenBody{surface.head.center_m, /*score_odds=*/-4.0F, /*visible_joints=*/3.0F};
+  };
+  const FoundPeople found = find_in_image(body_at_edge(), nobody_there);
+  EXPECT_TRUE(found.heads.empty());
+  ASSERT_EQ(found.rejected.size(), 1U);
+  EXPECT_EQ(found.rejected[0].rejection.filter, SegmentFilter::kNotHeadShaped);
+}
+
+TEST(HeadlessPeople, AreAskedForInTheImageWhereTheDepthsLeaveThemPossible) {
+  int asked = 0;
+  const auto count = [&](const HeadlessSurface&) -> std::optional<SeenBody> {
+    ++asked;
+    return std::nullopt;
+  };
+  find_in_image(part_in_sight(), count);
+  EXPECT_EQ(asked, 1);
+  find_in_image(part_in_sight(), count, HiddenHeadParams{}.min_part_odds - 0.1F);
+  EXPECT_EQ(asked, 1);
+  // Five posts in a row.
+  const Lattice posts = look_into_room([](float right_m, float up_m) {
+    const bool post = std::abs(std::remainder(right_m, 0.3F)) < 0.06F && std::abs(right_m) < 0.7F;
+    return post && up_m < kShoulder_m && up_m > kSole_m ? kBody_m : 0.0F;
+  });
+  asked = 0;
+  find_in_image(posts, count);
+  EXPECT_EQ(asked, HiddenHeadParams{}.max_asked);
 }
 
 TEST(SurfaceClassifier, SeesAMirroredPointFromTheOtherSide) {
