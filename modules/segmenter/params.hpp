@@ -161,8 +161,8 @@ struct ClassifierParams {
   /// others, at the image's edge, on sofas.
   float sure_head_odds = 0.5F;
   /// Between this and a sure head's log odds the colour image is asked too, of so many candidates
-  /// at most: each takes 10 ms. From -2 on, and four of them, one of 80 simulated people up to 5.2 m
-  /// away less is found.
+  /// at most: each takes 10 ms. From -2 on, and four of them, one of 80 simulated people up to 5.2
+  /// m away less is found.
   float min_asked_odds = -3.0F;
   int max_asked = 6;
   /// Lowest log odds of a skin-coloured part that the template does not take for a head.
