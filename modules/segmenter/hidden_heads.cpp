@@ -285,10 +285,11 @@ void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
   for (HeadlessSurface& surface : opinion
                                       ? find_body_parts(lattice, surfaces, found, params)
                                       : find_headless_surfaces(lattice, surfaces, found, params)) {
+    if (opinion && asked == params.max_asked) break;
     const float depth_odds = classifier.mean_odds(lattice, surface.points);
     Judgement judgement = judge_by_depths(depth_odds, params);
     if (opinion) {
-      if (depth_odds < params.min_part_odds || asked == params.max_asked) continue;
+      if (depth_odds < params.min_part_odds) continue;
       ++asked;
       const std::optional<SeenBody> seen = opinion(surface);
       if (!seen) continue;
