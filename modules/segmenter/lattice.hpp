@@ -25,6 +25,8 @@ struct LevelFrame {
   Eigen::Vector3f to_sensor(const Eigen::Vector3f& level_m) const {
     return level_from_sensor.transpose() * (level_m - Eigen::Vector3f(0.0F, 0.0F, sensor_height_m));
   }
+  /// Gravity's direction, in the sensor's frame.
+  Eigen::Vector3f down() const { return -level_from_sensor.row(2).transpose(); }
 };
 
 LevelFrame make_level_frame(const Gravity& gravity, const std::optional<Ground>& ground);

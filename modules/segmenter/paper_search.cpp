@@ -57,7 +57,7 @@ void reject_twins(std::size_t cloud_size, std::vector<PaperCluster>& clusters) {
 std::vector<PaperCluster> find_people_as_paper(const Cloud& cloud, const Lattice& lattice,
                                                const std::vector<HeadCandidate>& seeds,
                                                NeighborSearch& search, const Params& params) {
-  const Eigen::Vector3f down = -lattice.frame.level_from_sensor.row(2).transpose();
+  const Eigen::Vector3f down = lattice.frame.down();
   std::vector<PaperCluster> clusters;
   for (const HeadCandidate& seed : seeds) {
     PaperCluster cluster;

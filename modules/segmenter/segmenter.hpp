@@ -9,11 +9,9 @@
 #include "modules/segmenter/body_classifier.hpp"
 #include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/head_classifier.hpp"
-#include "modules/segmenter/hidden_heads.hpp"
-#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/image_opinion.hpp"
 #include "modules/segmenter/params.hpp"
-#include "modules/segmenter/people_search.hpp"
-#include "modules/segmenter/pose_network.hpp"
+#include "modules/segmenter/scene.hpp"
 #include "modules/segmenter/skin_color.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
 #include "modules/segmenter/surfaces.hpp"
@@ -37,14 +35,6 @@ class Segmenter {
   const std::string& problem() const { return faces_.problem(); }
 
  private:
-  /// A cloud on the grid that its people are searched in.
-  struct Scene {
-    const Cloud& cloud;
-    Lattice lattice;
-    int step = 1;  ///< pixels of the cloud between two of the lattice's
-  };
-
-  Scene look_at(const Cloud& cloud) const;
   std::vector<HeadCandidate> find_seeds(const Scene& scene) const;
   /// Both add segments to `result`, those of people first, and return the segment of each of the
   /// cloud's points.
@@ -54,19 +44,8 @@ class Segmenter {
   std::vector<std::int16_t> grow_as_paper(const Scene& scene,
                                           const std::vector<HeadCandidate>& seeds,
                                           Segments& result) const;
-  /// Log odds of a head, by the depths around it and by what the colour image shows beneath it.
-  std::optional<float> image_head_odds(const Scene& scene, const HeadCandidate& head) const;
-  /// What the colour image shows where a surface may be a body's whom none of `people` is; it looks
-  /// at `people` as they are when it is asked. Empty without an image.
-  BodyOpinion body_opinion(const Scene& scene, const FoundPeople& people) const;
   /// Heads of bodies that nobody has and that the network of poses takes for people.
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
-  std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
-                                            const std::vector<std::int16_t>& labels) const;
-  /// What the network of poses sees of a person: in the colours, or where there are none in the
-  /// surface, then in the pixels of `view`.
-  std::vector<ImagePose> see(const Cloud& cloud, const LabelledPerson& person,
-                             const Eigen::Vector3f& down, const RangeImage& view) const;
   void fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
                      Segments& result) const;
 
@@ -75,12 +54,9 @@ class Segmenter {
   HeadClassifier classifier_;
   BodyClassifier bodies_;
   FaceFinder faces_;
-  PoseNetwork pose_network_, second_pose_network_;
+  ImageOpinion image_;
   SurfaceClassifier surfaces_;
 };
-
-/// What the heads of an organised cloud are searched in: every `step`-th of its pixels.
-Lattice make_lattice(const Cloud& cloud, const LevelFrame& frame, int& step);
 
 /// The same for one cloud; a Segmenter that is kept saves building its tables (10 ms).
 Segments segment(const Cloud& cloud, const Params& params = {});

@@ -14,10 +14,10 @@ inline constexpr float kFocal_px = 260.0F;
 inline constexpr float kBody_m = 3.0F;
 
 /// Depth at a place across and up from the middle of the view, measured at the body's depth.
-using Scene = std::function<float(float right_m, float up_m)>;
+using DrawnScene = std::function<float(float right_m, float up_m)>;
 
 /// What a level camera sees of a scene; the ground is not known.
-inline Lattice look_at(const Scene& depth_at) {
+inline Lattice look_at(const DrawnScene& depth_at) {
   Lattice lattice;
   lattice.width = kSceneWidth;
   lattice.height = kSceneHeight;

@@ -18,7 +18,7 @@ constexpr float kEdge_m = 0.5F * kSceneWidth / kFocal_px * kBody_m;
 constexpr float kShoulder_m = 0.2F, kSole_m = -1.1F, kTrunk_m = 0.2F;
 
 /// What a level camera over a known ground sees of a scene before a wall.
-Lattice look_into_room(const Scene& depth_at) {
+Lattice look_into_room(const DrawnScene& depth_at) {
   Lattice lattice = look_at([&](float right_m, float up_m) {
     const float z_m = depth_at(right_m, up_m);
     return z_m > 0.0F ? z_m : kBackdrop_m;

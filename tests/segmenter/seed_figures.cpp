@@ -9,9 +9,8 @@
 
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/head_shape.hpp"
-#include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/people_search.hpp"
-#include "modules/segmenter/segmenter.hpp"
+#include "modules/segmenter/scene.hpp"
 #include "modules/segmenter/skin_seeds.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 
@@ -91,12 +90,7 @@ void run_set(const std::string& set) {
     const LoadedFrame loaded = reader.read(path);
     if (!loaded.labelled) continue;
     ++frames;
-    const LevelFrame level =
-        make_level_frame(loaded.cloud.stamp.gravity, find_ground(loaded.cloud, params.ground));
-    int step = 1;
-    const Lattice lattice = loaded.cloud.organized()
-                                ? make_lattice(loaded.cloud, level, step)
-                                : render_panorama(loaded.cloud, level, params.panorama);
+    const Lattice lattice = look_at(loaded.cloud, params).lattice;
     const Frame frame{loaded, lattice};
     const std::vector<HeadCandidate> shapes = find_heads(lattice, params.head);
     std::vector<RejectedHead> rejected;

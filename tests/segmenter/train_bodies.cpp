@@ -9,6 +9,7 @@
 
 #include "modules/segmenter/body_classifier.hpp"
 #include "modules/segmenter/joint_growing.hpp"
+#include "modules/segmenter/scene.hpp"
 #include "tests/segmenter/point_training.hpp"
 
 namespace {
@@ -48,10 +49,7 @@ std::vector<HeadCandidate> true_heads(const LoadedFrame& frame, const Lattice& l
 
 void add_examples(const LoadedFrame& frame, const Params& params, std::mt19937& random,
                   std::vector<Example>& examples) {
-  const LevelFrame level =
-      make_level_frame(frame.cloud.stamp.gravity, find_ground(frame.cloud, params.ground));
-  int step = 1;
-  const Lattice lattice = make_lattice(frame.cloud, level, step);
+  const Lattice lattice = look_at(frame.cloud, params).lattice;
   const std::vector<HeadCandidate> heads = true_heads(frame, lattice);
   if (heads.empty()) return;
   const auto labels = grow_together(lattice, heads, params.joint, params.reach);

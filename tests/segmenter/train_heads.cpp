@@ -14,9 +14,8 @@
 #include "modules/segmenter/cluster_figures.hpp"
 #include "modules/segmenter/head_patch.hpp"
 #include "modules/segmenter/joint_growing.hpp"
-#include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/people_search.hpp"
-#include "modules/segmenter/segmenter.hpp"
+#include "modules/segmenter/scene.hpp"
 #include "tests/segmenter/network_training.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 
@@ -44,7 +43,7 @@ float normal(Random& random) {
 }
 
 /// One frame, ready for the search; small enough to keep thousands.
-struct Scene {
+struct TrainingScene {
   Lattice lattice;
   std::vector<Eigen::Vector3f> heads_m;  ///< level frame, hidden ones too
   std::vector<bool> visible;
@@ -53,7 +52,7 @@ struct Scene {
 };
 
 /// Candidates of the template and the best place on each visible head, which the template may miss.
-void find_candidates(const Params& params, Scene& scene) {
+void find_candidates(const Params& params, TrainingScene& scene) {
   scene.candidates = find_heads(scene.lattice, params.head);
   for (std::size_t h = 0; h < scene.heads_m.size(); ++h) {
     if (!scene.visible[h]) continue;
@@ -74,17 +73,13 @@ void find_candidates(const Params& params, Scene& scene) {
   }
 }
 
-Scene make_scene(const LoadedFrame& frame, const Params& params) {
-  Scene scene;
-  const LevelFrame level =
-      make_level_frame(frame.cloud.stamp.gravity, find_ground(frame.cloud, params.ground));
-  int step = 1;
-  scene.lattice = frame.cloud.organized() ? make_lattice(frame.cloud, level, step)
-                                          : render_panorama(frame.cloud, level, params.panorama);
+TrainingScene make_scene(const LoadedFrame& frame, const Params& params) {
+  TrainingScene scene;
+  scene.lattice = look_at(frame.cloud, params).lattice;
   for (const TruePerson& person : frame.persons) {
     const auto head = person.joints_m.find("head");
     if (head == person.joints_m.end()) continue;
-    scene.heads_m.push_back(level.to_level(head->second));
+    scene.heads_m.push_back(scene.lattice.frame.to_level(head->second));
     scene.visible.push_back(person.head_visible());
   }
   find_candidates(params, scene);
@@ -93,7 +88,7 @@ Scene make_scene(const LoadedFrame& frame, const Params& params) {
 
 /// The scene as a depth camera tells it that fills holes and smooths: silhouettes grow by up to
 /// `reach_px` and take the place of what lies behind them, as those of a RealSense do.
-Scene with_grown_silhouettes(Scene scene, int reach_px, const Params& params) {
+TrainingScene with_grown_silhouettes(TrainingScene scene, int reach_px, const Params& params) {
   constexpr float kNothing_m = 100.0F, kSmooth = 0.05F;
   Lattice& lattice = scene.lattice;
   cv::Mat1f depth = cv::Mat1f(lattice.height, lattice.width, lattice.depth_m.data()).clone();
@@ -117,7 +112,7 @@ Scene with_grown_silhouettes(Scene scene, int reach_px, const Params& params) {
 }
 
 /// Distance of the nearest head; along the ray the noise of the sensor is taken off.
-float distance_to_heads_m(const Scene& scene, const Eigen::Vector3f& center_m) {
+float distance_to_heads_m(const TrainingScene& scene, const Eigen::Vector3f& center_m) {
   float nearest_m = 1e9F;
   const Eigen::Vector3f sensor_m(0.0F, 0.0F, scene.lattice.frame.sensor_height_m);
   for (const Eigen::Vector3f& head : scene.heads_m) {
@@ -165,7 +160,8 @@ void add_patches(const Lattice& lattice, const HeadCandidate& candidate, bool po
   }
 }
 
-void add_patch_examples(const Scene& scene, Random& random, std::vector<Example>& examples) {
+void add_patch_examples(const TrainingScene& scene, Random& random,
+                        std::vector<Example>& examples) {
   for (const HeadCandidate& candidate : scene.candidates) {
     const float d = distance_to_heads_m(scene, candidate.center_m);
     if (d < kSameHead_m || d > kOtherPlace_m)
@@ -173,8 +169,8 @@ void add_patch_examples(const Scene& scene, Random& random, std::vector<Example>
   }
 }
 
-void add_person_examples(const Scene& scene, const HeadClassifier& classifier, const Params& params,
-                         std::vector<Example>& examples) {
+void add_person_examples(const TrainingScene& scene, const HeadClassifier& classifier,
+                         const Params& params, std::vector<Example>& examples) {
   std::vector<RejectedHead> rejected;
   std::vector<HeadCandidate> heads =
       likely_heads(scene.lattice, scene.candidates, classifier, params.classifier, rejected);
@@ -206,10 +202,11 @@ void report(const char* what, const Network& network, const std::vector<Example>
   std::fflush(stdout);
 }
 
-std::vector<Scene> load_scenes(const std::vector<std::string>& folders, const Params& params) {
+std::vector<TrainingScene> load_scenes(const std::vector<std::string>& folders,
+                                       const Params& params) {
   constexpr int kMostReach_px = 6;  // of the thinned lattice: 5 cm at 2.3 m
   Random random(11);
-  std::vector<Scene> scenes;
+  std::vector<TrainingScene> scenes;
   for (const std::string& folder : folders) {
     const FrameReader reader(folder, DepthFrom::kReconstructor);
     for (std::size_t i = 0; i < reader.paths().size(); ++i) {
@@ -247,8 +244,9 @@ int main(int argc, char** argv) {
   const Params params;
   Random random(7);
   std::array<Fold, 2> folds;
-  const std::vector<Scene> scenes = load_scenes(folders, params);
-  for (const Scene& scene : scenes) add_patch_examples(scene, random, folds[scene.fold].patches);
+  const std::vector<TrainingScene> scenes = load_scenes(folders, params);
+  for (const TrainingScene& scene : scenes)
+    add_patch_examples(scene, random, folds[scene.fold].patches);
   // The second network must see the first one's odds as they are on frames that it was not trained
   // on.
   const TrainingParams patch_params;
@@ -257,7 +255,7 @@ int main(int argc, char** argv) {
   const HeadClassifier first(first_patch, unused);
   const HeadClassifier second(train(folds[1].patches, patch_params), unused);
   report("patches, fold 1 on fold 2", first_patch, folds[1].patches);
-  for (const Scene& scene : scenes)
+  for (const TrainingScene& scene : scenes)
     add_person_examples(scene, scene.fold == 0 ? second : first, params, folds[scene.fold].persons);
   TrainingParams person_params;
   person_params.hidden = 8;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "modules/segmenter/joint_growing.hpp"
-#include "modules/segmenter/segmenter.hpp"
+#include "modules/segmenter/scene.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
 #include "modules/segmenter/surfaces.hpp"
 #include "tests/segmenter/point_training.hpp"
@@ -77,10 +77,7 @@ void add_examples(const LoadedFrame& frame, const Lattice& lattice, const Params
 /// The frame as it is, and cut through the middle of what it shows, left and right.
 void add_views(const LoadedFrame& frame, const Params& params, std::mt19937& random,
                std::vector<Example>& examples) {
-  const LevelFrame level =
-      make_level_frame(frame.cloud.stamp.gravity, find_ground(frame.cloud, params.ground));
-  int step = 1;
-  const Lattice lattice = make_lattice(frame.cloud, level, step);
+  const Lattice lattice = look_at(frame.cloud, params).lattice;
   add_examples(frame, lattice, params, random, examples);
   const int quarter = lattice.width / 4;
   const int middle = quarter + static_cast<int>(random() % static_cast<unsigned>(2 * quarter));

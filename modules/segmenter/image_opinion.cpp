@@ -1,0 +1,130 @@
+#include "modules/segmenter/image_opinion.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "modules/segmenter/range_image.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+/// The second network looks only where the first does: else it need not be loaded.
+PoseNetworkParams second_of(const Params& params) {
+  PoseNetworkParams second = params.second_pose_network;
+  second.enabled = second.enabled && params.pose_network.enabled;
+  return second;
+}
+
+bool has_image(const Cloud& cloud) { return cloud.organized() && !cloud.colors.empty(); }
+
+/// Where the network marks a head whose depth is known, in the camera's optical frame [m].
+Eigen::Vector3f marked_head(const ImagePose& pose, const PinholeCamera& camera, float depth_m) {
+  const auto seen = std::find_if(pose.joints.begin(), pose.joints.end(),
+                                 [](const ImageJoint& j) { return j.joint == Joint::kHead; });
+  return camera.back_project(seen->px.x(), seen->px.y(), depth_m);
+}
+
+/// The camera's own image; of a scan one that shows the place.
+RangeImage view_towards(const Scene& scene, const Eigen::Vector3f& place_m) {
+  RangeImage view;
+  if (scene.cloud.organized()) {
+    view.camera = *scene.cloud.camera;
+  } else {
+    view.frame_from_image = upright_view(place_m, scene.lattice.frame.down());
+    view.camera.fx = view.camera.fy = 1.0;
+  }
+  return view;
+}
+
+}  // namespace
+
+ImageOpinion::ImageOpinion(const Params& params)
+    : params_(params),
+      network_(params.pose_network),
+      second_network_(second_of(params), PictureNetworkKind::kMoveNet) {}
+
+HeadOpinion ImageOpinion::head_opinion(const Scene& scene) const {
+  if (!params_.pose_network.enabled || !has_image(scene.cloud)) return nullptr;
+  return [&](const HeadCandidate& head) { return head_odds(scene, head); };
+}
+
+BodyOpinion ImageOpinion::body_opinion(const Scene& scene, const FoundPeople& people) const {
+  if (!params_.pose_network.enabled || !has_image(scene.cloud)) return nullptr;
+  // Most surfaces that are asked about change nobody's labels: those of the cloud are kept.
+  using Labels = std::vector<std::int16_t>;
+  return [&, known = Labels(), labels = Labels()](const HeadlessSurface& surface) mutable {
+    if (known != people.labels) {
+      known = people.labels;
+      labels = labels_of_cloud(scene, known, params_.joint);
+    }
+    return see_body(scene, labels, surface.head);
+  };
+}
+
+std::optional<Eigen::Vector3f> ImageOpinion::head_of_body(const Scene& scene,
+                                                          const HeadlessSurface& body) const {
+  constexpr std::int16_t kThis = 0;
+  std::vector<std::int16_t> labels(scene.lattice.size(), kNobody);
+  for (const std::uint32_t i : body.points) labels[i] = kThis;
+  labels = labels_of_cloud(scene, labels, params_.joint);
+  const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(body.head.center_m);
+  const RangeImage view = view_towards(scene, head_m);
+  const auto pose = look(scene, {labels, kThis, head_m}, view);
+  if (!pose || pose->person_score < params_.whole_bodies.min_score) return std::nullopt;
+  const float depth_m = view.frame_from_image.col(2).dot(head_m);
+  const Eigen::Vector3f marked_m = view.frame_from_image * marked_head(*pose, view.camera, depth_m);
+  if ((marked_m - head_m).norm() > params_.whole_bodies.max_head_distance_m) return std::nullopt;
+  return marked_m;
+}
+
+std::vector<ImagePose> ImageOpinion::see(const Scene& scene, const LabelledPerson& person,
+                                         const RangeImage& view) const {
+  std::vector<ImagePose> poses;
+  const auto add = [&](std::optional<ImagePose> pose) {
+    if (pose) poses.push_back(std::move(*pose));
+  };
+  add(look(scene, person, view));
+  // Alone the second would be taken for the first; without colours it takes the stripes of few
+  // rings for limbs.
+  if (!poses.empty() && has_image(scene.cloud))
+    add(second_network_.look(scene.cloud, person, scene.lattice.frame.down()));
+  return poses;
+}
+
+std::optional<float> ImageOpinion::head_odds(const Scene& scene, const HeadCandidate& head) const {
+  const LevelFrame& frame = scene.lattice.frame;
+  const Eigen::Vector3f head_m = frame.to_sensor(head.center_m);
+  const std::vector<std::int16_t> nobodys(scene.cloud.points_m.size(), kNobody);
+  const auto pose = network_.look(scene.cloud, {nobodys, kNobody, head_m}, frame.down());
+  if (!pose) return std::nullopt;
+  const float distance_m = (marked_head(*pose, *scene.cloud.camera, head_m.z()) - head_m).norm();
+  const PoseNetworkParams& params = params_.pose_network;
+  return params.base_odds + params.depth_odds * head.odds +
+         params.score_odds * std::clamp(log_odds(pose->person_score), -params.max_score_odds,
+                                        params.max_score_odds) +
+         params.distance_odds_per_m * std::min(distance_m, params.max_distance_m);
+}
+
+std::optional<SeenBody> ImageOpinion::see_body(const Scene& scene,
+                                               const std::vector<std::int16_t>& labels,
+                                               const HeadCandidate& head) const {
+  const LevelFrame& frame = scene.lattice.frame;
+  const Eigen::Vector3f head_m = frame.to_sensor(head.center_m);
+  // The body's own points are nobody's: only those of others are painted over.
+  const auto pose = network_.look(scene.cloud, {labels, kNobody, head_m}, frame.down());
+  if (!pose) return std::nullopt;
+  SeenBody seen;
+  seen.head_m = frame.to_level(marked_head(*pose, *scene.cloud.camera, head_m.z()));
+  seen.score_odds = log_odds(pose->person_score);
+  for (const ImageJoint& joint : pose->joints) seen.visible_joints += joint.visibility;
+  return seen;
+}
+
+std::optional<ImagePose> ImageOpinion::look(const Scene& scene, const LabelledPerson& person,
+                                            const RangeImage& view) const {
+  const Eigen::Vector3f down = scene.lattice.frame.down();
+  return has_image(scene.cloud) ? network_.look(scene.cloud, person, down)
+                                : network_.look_at_surface(scene.cloud, person, down, view);
+}
+
+}  // namespace limbcast::segmenter
