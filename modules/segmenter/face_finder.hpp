@@ -6,8 +6,8 @@
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
+#include "modules/segmenter/image_params.hpp"
 #include "modules/segmenter/instance_pool.hpp"
-#include "modules/segmenter/params.hpp"
 
 namespace limbcast::segmenter {
 

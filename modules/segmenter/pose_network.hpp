@@ -9,8 +9,8 @@
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
 #include "modules/segmenter/color_patch.hpp"
+#include "modules/segmenter/image_params.hpp"
 #include "modules/segmenter/instance_pool.hpp"
-#include "modules/segmenter/params.hpp"
 #include "modules/segmenter/picture_network.hpp"
 
 namespace limbcast::segmenter {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
-#include "modules/segmenter/params.hpp"
+#include "modules/segmenter/image_params.hpp"
 
 namespace limbcast::segmenter {
 

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace limbcast::segmenter {
+
+/// Faces at the heads of people (face_finder.hpp). Chosen, and the hits counted, at the heads of
+/// bodies D1 to D3 of stereo_dev (with the right camera's images; centre off by 2 cm), of
+/// rgbd_pointing and rgbd_five_people: 319 that face the sensor within 60 degrees, 65 seen from
+/// behind.
+struct FaceParams {
+  /// Folder with haarcascade_frontalface_default.xml and haarcascade_profileface.xml, set when
+  /// limbcast is built; empty: faces are not looked for.
+  std::string cascades = LIMBCAST_FACE_CASCADES;
+  /// What is searched: a square around the head's centre, with room for its error [m].
+  float patch_m = 0.34F;
+  /// Its side when searched [px]: at 64 the depth camera's faces are seen at half of the heads, at
+  /// 96 at 7 of 10, and the search takes twice as long.
+  int patch_px = 96;
+  /// Smallest side in the cloud's own pixels: hits get rare below. 6.8 m for VGA.
+  float min_patch_px = 26.0F;
+  /// A detector's square of a face, as a share of the patch.
+  float min_face_share = 0.36F, max_face_share = 0.70F;
+  /// From one size to the next. 1.1 finds no more and takes 15 % longer.
+  double size_step = 1.15;
+  /// Hits that are some, and enough: at facing heads 0 hits 11 %, fewer than some 9 %, fewer than
+  /// enough 13 %, more 67 %; from behind 96, 4, 0 and 0 %.
+  int some_hits = 3, enough_hits = 6;
+  /// Log odds that a person faces the sensor after no, few, some and enough hits: from these shares
+  /// if hair, masks, hats or hands hide three faces in ten, and a back looks like a face once in 50
+  /// (some) or 100 (enough).
+  float no_hit_log_odds = -0.8F, few_hits_log_odds = 0.4F, some_hits_log_odds = 1.7F,
+        enough_hits_log_odds = 3.5F;
+  /// Log odds of the side a face looks to where `some_hits` more of its profile are found: 4 to 10
+  /// of those are right for one that is wrong.
+  float profile_log_odds = 1.8F;
+};
+
+/// How the surface of somebody without colours is drawn for the network of poses
+/// (shaded_surface.hpp). Chosen on simulated scans (tests/accuracy/README.md), by the share of
+/// visible joints that the network sees within 10 cm: 82 % of a dense scanner's, 73 % of 64 rings.
+struct ShadedSurfaceParams {
+  /// Points farther apart than this many times the usual have a hole between them.
+  float max_gap_spacings = 2.0F;
+  /// A step of more than this in depth is the rim of a limb [m]; with 0.2 and 0.4 arms before the
+  /// trunk melt into it.
+  float max_jump_m = 0.1F;
+  /// Depths are averaged with this standard deviation at least [px], and half the usual distance of
+  /// two points: noise looks like folds.
+  float min_smoothing_px = 1.5F;
+  /// Where the light comes from: right, down, away. Upper sides are light.
+  std::array<float, 3> to_lamp = {-0.3F, -0.6F, -1.0F};
+  /// Share of the light that comes from everywhere.
+  float ambient = 0.15F;
+  /// Colours of a lit surface, skin-like, and of the wall [blue, green, red; 0 to 255].
+  std::array<std::uint8_t, 3> surface = {150, 170, 200}, wall = {200, 200, 200};
+};
+
+/// The network that sees joints in the colour image (pose_network.hpp). Chosen on bodies D1 to D3
+/// of stereo_dev/pointing and general with true heads, every second frame: 98 % of the visible
+/// joints are within 10 cm across the ray; with the square around the true hips 95 %.
+struct PoseNetworkParams {
+  bool enabled = true;
+  /// Middle of the square that the network sees, below the head's centre [m], and the square's side
+  /// [m]: room for raised arms.
+  float middle_below_head_m = 0.7F;
+  float side_m = 2.3F;
+  /// Smallest side in the cloud's own pixels: farther people are too small to see. 12 m for VGA.
+  float min_side_px = 100.0F;
+  /// Log odds of an unsure head: `base` + `depth_odds` times those of the depths around it +
+  /// `score_odds` times those of the network's score + `distance_odds_per_m` times the distance to
+  /// the head that the network marks. Logistic regression on 525 candidates of simulated groups and
+  /// rooms and of stereo_dev: 91 % of the heads and 7 % of the rest are over 0; by the depths alone
+  /// 63 and 10 %.
+  float base_odds = 0.4F, depth_odds = 0.6F, score_odds = 0.67F, distance_odds_per_m = -8.3F;
+  /// Limits of what the score and the distance tell: log odds, and [m].
+  float max_score_odds = 4.0F, max_distance_m = 0.4F;
+  /// What the network sees of a cloud without colours.
+  ShadedSurfaceParams surface;
+};
+
+/// The square of the second network (move_net.hpp). Of the visible joints of stereo_dev/multi it
+/// sees 92.7 % within 10 cm with a side of 2 m, 91.2 % with 2.3 and 89.3 % with 1.8, with true
+/// silhouettes.
+inline const PoseNetworkParams kSecondPoseNetwork = [] {
+  PoseNetworkParams params;
+  params.side_m = 2.0F;
+  return params;
+}();
+
+}  // namespace limbcast::segmenter
