@@ -9,14 +9,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-std::vector<Material> materials_of(const Clothes& clothes) {
+std::vector<Material> materials_of(const BodyShape& body) {
+  const Clothes& clothes = body.clothes;
   const auto plain = [](Bgr color, float grain) {
     Material material;
     material.color = material.second = color;
     material.grain = grain;
     return material;
   };
-  std::vector<Material> materials(7);
+  std::vector<Material> materials(8);
   materials[kSkin] = plain(clothes.skin, 0.05F);
   materials[kTop] = plain(clothes.top, 0.12F);
   materials[kTop].second = clothes.top_second;
@@ -27,6 +28,10 @@ std::vector<Material> materials_of(const Clothes& clothes) {
   materials[kShoes] = plain(clothes.shoes, 0.08F);
   materials[kHatColor] = plain(clothes.hat_color, 0.10F);
   materials[kBagColor] = plain(clothes.top_second, 0.10F);
+  materials[kFaceSkin] = materials[kSkin];
+  materials[kFaceSkin].second = clothes.hair_color;
+  materials[kFaceSkin].pattern = Pattern::kFace;
+  materials[kFaceSkin].scale_m = static_cast<float>(body.stature_m * body.head_scale);
   return materials;
 }
 
@@ -232,7 +237,7 @@ void add_skirt(const Figure& figure, SurfaceBuilder& builder) {
 Surface make_body_surface(const BodyShape& body, const Posture& posture, const Skeleton& skeleton,
                           int person) {
   const Figure figure{body, posture, skeleton};
-  SurfaceBuilder builder(materials_of(body.clothes));
+  SurfaceBuilder builder(materials_of(body));
   add_trunk(figure, builder);
   add_head(body, skeleton, builder);
   for (int side = 0; side < 2; ++side) add_arm(figure, side, builder);

@@ -7,7 +7,16 @@
 namespace limbcast::simulate {
 
 /// Indices of a person's materials.
-enum BodyMaterial : int { kSkin, kTop, kBottom, kHairColor, kShoes, kHatColor, kBagColor };
+enum BodyMaterial : int {
+  kSkin,
+  kTop,
+  kBottom,
+  kHairColor,
+  kShoes,
+  kHatColor,
+  kBagColor,
+  kFaceSkin
+};
 
 /// The dressed skin of `body` around `skeleton`, in the skeleton's frame. `person`: index in the
 /// mask.

@@ -31,7 +31,7 @@ class Head {
 };
 
 void add_face(const Head& head, const Clothes& clothes, SurfaceBuilder& builder) {
-  builder.as(Part::kFace, kSkin);
+  builder.as(Part::kFace, kFaceSkin);
   head.ellipsoid(builder, {0, 0.004, 0.000}, {0.0425, 0.046, 0.054});
   head.ellipsoid(builder, {0, -0.036, 0.016}, {0.032, 0.036, 0.034});
   builder.cone(head.at(0, -0.006, 0.050), head.at(0, -0.022, 0.058), head.size(0.004),
@@ -94,6 +94,7 @@ void add_hat(const Head& head, const Clothes& clothes, SurfaceBuilder& builder) 
 
 void add_head(const BodyShape& body, const Skeleton& skeleton, SurfaceBuilder& builder) {
   const Head head(body, skeleton);
+  builder.head(skeleton[Joint::kHead], skeleton.head_R);
   builder.begin_group(head.size(0.010));
   add_face(head, body.clothes, builder);
   add_hair(head, body.clothes, skeleton, builder);

@@ -70,7 +70,10 @@ const Material& material_of(const World& world, const Hit& hit) {
 
 Vector3f texture_point(const World& world, const Hit& hit, const Vector3f& point) {
   if (hit.solid >= 0) return world.solids[hit.solid].frame_from_solid.inverse() * point;
-  const Primitive& primitive = world.surfaces[hit.surface].primitives[hit.primitive];
+  const Surface& surface = world.surfaces[hit.surface];
+  const Primitive& primitive = surface.primitives[hit.primitive];
+  if (surface.materials[primitive.material].pattern == Pattern::kFace)
+    return surface.head_from_surface * point;
   return primitive.local * (point - primitive.origin);
 }
 

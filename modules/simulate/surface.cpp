@@ -73,6 +73,7 @@ Surface Surface::transformed(const Eigen::Isometry3f& target_from_source) const 
     primitive.origin = target_from_source * primitive.origin;
     primitive.center = target_from_source * primitive.center;
   }
+  result.head_from_surface = head_from_surface * target_from_source.inverse();
   return result;
 }
 
@@ -144,6 +145,13 @@ void SurfaceBuilder::add(Primitive primitive) {
   primitive.wrinkle_m = static_cast<float>(wrinkle_m_);
   surface_.primitives.push_back(primitive);
   ++surface_.groups.back().count;
+}
+
+void SurfaceBuilder::head(const Vector3d& center, const Matrix3d& axes) {
+  Eigen::Isometry3d surface_from_head = Eigen::Isometry3d::Identity();
+  surface_from_head.linear() = axes;
+  surface_from_head.translation() = center;
+  surface_.head_from_surface = surface_from_head.inverse().cast<float>();
 }
 
 Surface SurfaceBuilder::build(int person) && {

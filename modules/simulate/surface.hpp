@@ -36,13 +36,14 @@ constexpr Part on_side(Part left, int side) {
   return static_cast<Part>(static_cast<int>(left) + side);
 }
 
-enum class Pattern : std::uint8_t { kPlain, kStripes, kChecks, kBlotches, kWood, kPicture };
+enum class Pattern : std::uint8_t { kPlain, kStripes, kChecks, kBlotches, kWood, kPicture, kFace };
 
-/// How a surface looks; patterns are solid textures in the object's own coordinates.
+/// How a surface looks; patterns are solid textures in the object's own coordinates, a face in
+/// those of the head.
 struct Material {
   Bgr color, second;
   Pattern pattern = Pattern::kPlain;
-  float scale_m = 0.05F;  ///< period of the pattern [m]
+  float scale_m = 0.05F;  ///< period of the pattern; of a face: a mean adult's stature [m]
   float grain = 0.06F;    ///< relative amplitude of the fine texture, 0 = perfectly even
 };
 
@@ -79,6 +80,8 @@ struct Surface {
   std::vector<Material> materials;
   float join_blend_m = 0.006F;  ///< between groups
   int person = 0;               ///< index in the mask, 0 = no person
+  /// Where the face is painted: x own left, y up, z forward, from the head's centre.
+  Eigen::Isometry3f head_from_surface = Eigen::Isometry3f::Identity();
 
   float distance_m(const Eigen::Vector3f& point) const;
   /// The primitive that is nearest to `point`.
@@ -112,6 +115,8 @@ class SurfaceBuilder {
   void ellipsoid(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes,
                  const Eigen::Vector3d& half_axes_m);
   void ball(const Eigen::Vector3d& center, double radius_m);
+  /// The head's place in the surface, for materials with a face.
+  void head(const Eigen::Vector3d& center, const Eigen::Matrix3d& axes);
   Surface build(int person) &&;
 
  private:

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "modules/simulate/face.hpp"
+
 namespace limbcast::simulate {
 namespace {
 
@@ -39,6 +41,7 @@ float pattern_share(const Material& material, const Vector3f& point) {
   const auto odd = [](float value) { return std::sin(6.2831853F * value) > 0.0F; };
   switch (material.pattern) {
     case Pattern::kPlain:
+    case Pattern::kFace:
       return 0.0F;
     case Pattern::kStripes:
       return odd(p.y()) ? 1.0F : 0.0F;
@@ -65,7 +68,11 @@ Vector3f texture_color(const Material& material, const Vector3f& point, float fo
                     static_cast<float>(color.r));
   };
   const float share = pattern_share(material, point);
-  const Vector3f color = (1.0F - share) * vector(material.color) + share * vector(material.second);
+  const Vector3f color =
+      material.pattern == Pattern::kFace
+          ? face_color(vector(material.color), vector(material.second), point / material.scale_m,
+                       footprint_m / material.scale_m)
+          : Vector3f((1.0F - share) * vector(material.color) + share * vector(material.second));
   float grain = 0.0F;
   for (const float size_m : {0.003F, 0.007F, 0.016F, 0.040F}) {
     const float sharpness = std::clamp(size_m / footprint_m - 0.7F, 0.0F, 1.0F);

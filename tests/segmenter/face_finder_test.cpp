@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "modules/segmenter/segmenter.hpp"
+#include "modules/simulate/body_surface.hpp"
+#include "modules/simulate/render.hpp"
 #include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 #include "tests/segmenter/turned_cloud.hpp"
@@ -122,6 +124,71 @@ TEST_F(FacesOfTheDemo, AreNotLookedForWithDamagedCascades) {
   FaceParams params;
   params.cascades = folder.path();
   EXPECT_THAT(FaceFinder(params).problem(), HasSubstr("opencv-data"));
+}
+
+/// Simulated people without hats, 2 m away.
+class SimulatedFaces : public ::testing::Test {
+ protected:
+  /// Of how many of ten people who are turned by `yaw_rad` some hits tell that they face the
+  /// sensor.
+  int facing(double yaw_rad) const {
+    const FaceFinder finder(params_);
+    int count = 0;
+    for (int person = 0; person < 10; ++person) {
+      const simulate::Scenario scenario = somebody(person, yaw_rad);
+      const Eigen::Vector3f head_m = scenario.persons[0].skeleton[Joint::kHead].cast<float>();
+      if (finder.look(photo_of(scenario), head_m, kUpPx).facing_log_odds >=
+          params_.some_hits_log_odds)
+        ++count;
+    }
+    return count;
+  }
+
+ private:
+  static simulate::Scenario somebody(int seed, double yaw_rad) {
+    simulate::Rng rng(seed);
+    simulate::Person person;
+    person.body = simulate::draw_body(rng);
+    person.body.clothes.hair = simulate::Hair::kShort;
+    person.body.clothes.hat = simulate::Hat::kNone;
+    for (simulate::ArmPose& arm : person.posture.arms)
+      arm.upper = arm.fore = -Eigen::Vector3d::UnitY();
+    person.place = {0.0, 2.0, yaw_rad};
+    Eigen::Isometry3d sensor_from_world = Eigen::Isometry3d::Identity();
+    sensor_from_world.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+    sensor_from_world.translation().y() = 1.5;
+    person.skeleton = simulate::transformed(
+        simulate::make_skeleton(person.body, person.posture, person.place), sensor_from_world);
+    simulate::Scenario scenario;
+    scenario.light = Eigen::Vector3f(0.3F, -0.5F, -0.8F).normalized();
+    scenario.world.surfaces.push_back(
+        simulate::make_body_surface(person.body, person.posture, person.skeleton, 1));
+    scenario.persons.push_back(person);
+    return scenario;
+  }
+
+  static Cloud photo_of(const simulate::Scenario& scenario) {
+    Cloud cloud;
+    cloud.camera = PinholeCamera{160, 120, 525.0, 525.0, 79.5, 59.5};
+    // Only the head is in the picture.
+    const Eigen::Vector3f head_m = scenario.persons[0].skeleton[Joint::kHead].cast<float>();
+    cloud.camera->cy -= cloud.camera->fy * head_m.y() / head_m.z();
+    cloud.width = cloud.camera->width;
+    cloud.height = cloud.camera->height;
+    cloud.points_m.resize(static_cast<std::size_t>(cloud.width) * cloud.height);
+    const cv::Mat3b photo = simulate::color_image(
+        scenario, simulate::look(scenario.world, *cloud.camera), *cloud.camera, simulate::Rng(1));
+    for (const cv::Vec3b& pixel : photo) cloud.colors.push_back({pixel[0], pixel[1], pixel[2]});
+    return cloud;
+  }
+
+  const FaceParams params_{};
+};
+
+TEST_F(SimulatedFaces, AreSeenFromTheFrontAndNotFromBehind) {
+  constexpr double kTurnedAway_rad = 3.14159;
+  EXPECT_GE(facing(0.0), 8);
+  EXPECT_EQ(facing(kTurnedAway_rad), 0);
 }
 
 /// Rendered people of whom is known how they stand.
