@@ -288,6 +288,16 @@ TEST(CalibrateProgram, FindsTheMountingOfARecording) {
   EXPECT_NEAR(*mounting.sensor_height_m, 1.25, 0.03);
 }
 
+TEST(CalibrateProgram, WritesNoMountingWhereNoFileIsNamedForIt) {
+  const TemporaryFolder folder;
+  write_stereo_calibration(folder / "camera.yml", true_cameras());
+  const Outcome outcome =
+      run_program("limbcast-calibrate",
+                  {"mounting", "--source", folder.path(), "--calibration", folder / "camera.yml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "limbcast-calibrate: --output is missing; see --help\n");
+}
+
 TEST(CalibrateProgram, ExplainsWrongUsage) {
   const Outcome no_output = run_program("limbcast-calibrate", {"--source", "/nowhere"});
   EXPECT_EQ(no_output.exit_code, 2);
