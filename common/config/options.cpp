@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/program_options.hpp>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -250,6 +251,10 @@ void Parser::assign(const std::string& where, const std::string& section, const 
 }
 
 void Parser::read_config_file(const std::string& path, const std::vector<std::string>& given) {
+  std::error_code ignored;
+  // Opens like a file, and reads as an empty one.
+  if (std::filesystem::is_directory(path, ignored))
+    throw UsageError(path + ": is a folder; give a file to --config");
   std::ifstream in(path);
   if (!in) throw UsageError(path + ": cannot be read; give an existing file to --config");
   std::optional<po::parsed_options> parsed;

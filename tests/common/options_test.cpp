@@ -110,6 +110,11 @@ TEST_F(OptionsTest, NamesTheFileOfAnUnknownKeyOrSection) {
   EXPECT_THAT(error_of({"in.log", "--config", "/missing.conf"}), HasSubstr("/missing.conf"));
 }
 
+TEST_F(OptionsTest, RefusesAFolderAsConfigurationFile) {
+  EXPECT_THAT(error_of({"in.log", "--config", folder_.path().c_str()}),
+              HasSubstr(folder_.path() + ": is a folder; give a file to --config"));
+}
+
 TEST_F(OptionsTest, HelpShowsUnitAndDefault) {
   EXPECT_FALSE(parse({"--help"}));
   EXPECT_THAT(out_.str(), HasSubstr("largest step [m] (0.001 to 1, default 0.05)"));
