@@ -32,6 +32,9 @@ std::int64_t find_sync_word(std::FILE* file, std::int64_t from, std::int64_t siz
 }
 
 void check_is_log(const std::string& path) {
+  if (std::filesystem::is_directory(path))
+    throw config::UsageError(path +
+                             ": is a folder; give a log that lcm-logger or a camera's --log made");
   if (!std::filesystem::is_regular_file(path))
     throw config::UsageError(path + ": no such file; give a log made by lcm-logger");
   std::ifstream in(path, std::ios::binary);

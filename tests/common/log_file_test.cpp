@@ -83,6 +83,7 @@ TEST_F(LogFile, GoesOnBehindADamagedEvent) {
 
 TEST_F(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {
   EXPECT_THAT(error_of("/nowhere/in.log"), HasSubstr("/nowhere/in.log: no such file"));
+  EXPECT_THAT(error_of(folder_.path()), HasSubstr(folder_.path() + ": is a folder; give a log"));
   EXPECT_THAT(error_of(folder_.write("empty.log", "")), HasSubstr("is empty"));
   EXPECT_THAT(error_of(folder_.write("foreign.log", "a text, not a log")),
               HasSubstr("is no LCM log"));
