@@ -59,6 +59,15 @@ std::vector<BodyPoses> read_log(const std::string& log, const std::string& chann
   return frames;
 }
 
+std::vector<BodyPoses> read_reported(const Options& options) {
+  if (!options.poses.empty()) return pose_json::read_file(options.poses);
+  std::vector<BodyPoses> frames = read_log(options.log, options.channel);
+  if (frames.empty())
+    throw UsageError(options.log + ": holds no poses on " + options.channel +
+                     "; limbcast-replay adds them");
+  return frames;
+}
+
 std::vector<TruthFrame> read_truth(const Options& options) {
   if (!options.truth.empty())
     return read_truth_folders(split_list(options.truth), split_list(options.bodies));
@@ -109,10 +118,8 @@ void run(int argc, const char* const* argv) {
   config::configure_log("evaluate", parser.common().log_level);
   check(options);
 
+  const std::vector<BodyPoses> reported = read_reported(options);
   const std::vector<TruthFrame> truth = read_truth(options);
-  const std::vector<BodyPoses> reported = options.poses.empty()
-                                              ? read_log(options.log, options.channel)
-                                              : pose_json::read_file(options.poses);
   const Tally tally = evaluate(truth, reported);
   if (tally.frames == tally.frames_not_reported)
     config::log(config::LogLevel::kWarning,

@@ -28,6 +28,13 @@ BodyPoses stamped(BodyPoses poses) {
   return poses;
 }
 
+/// A recording before limbcast-replay: its truth, but no poses.
+void write_truth_log(const std::string& path) {
+  lcm_io::LogWriter log(path);
+  log.write(0, "GROUND_TRUTH", lcm_io::to_message(stamped(frame({pointing_figure()}, 0))));
+  log.close();
+}
+
 /// Two frames, the second with a direction that is 30 degrees off.
 void write_log(const std::string& path, bool with_truth) {
   lcm_io::LogWriter log(path);
@@ -93,6 +100,7 @@ TEST(EvaluateProgram, WarnsWherePosesAndTruthShareNoFrame) {
 TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
   const TemporaryFolder folder;
   write_log(folder / "bare.log", false);
+  write_truth_log(folder / "in.log");
   folder.write("empty.log", "");
   folder.write("foreign.log", "a text, no log");
   folder.write("poses.jsonl", "{}\n");
@@ -110,12 +118,26 @@ TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
   expect_usage_error({folder / "empty.log"}, "is empty");
   expect_usage_error({folder / "foreign.log"}, "is no LCM log");
   expect_usage_error({folder / "bare.log"}, "carries no truth");
+  expect_usage_error({folder / "in.log"},
+                     "holds no poses on BODY_POSES; limbcast-replay adds them");
+  expect_usage_error({folder / "in.log", "--truth", folder / "truth"}, "limbcast-replay adds them");
   expect_usage_error({folder / "bare.log", "--bodies", "D4"}, "--bodies needs --truth");
   expect_usage_error({"--poses", folder / "poses.jsonl"}, "--poses needs --truth");
   expect_usage_error({"--poses", folder / "poses.jsonl", "--truth", folder / "truth"},
                      "line 1: 'utime' is missing");
   expect_usage_error({folder / "bare.log", "--truth", folder / "none"}, "cannot be read");
   expect_usage_error({folder / "bare.log", "--frobnicate", "1"}, "frobnicate");
+}
+
+TEST(EvaluateProgram, JudgesALogOfARoomWithoutPeople) {
+  const TemporaryFolder folder;
+  lcm_io::LogWriter log(folder / "out.log");
+  for (const char* channel : {"GROUND_TRUTH", "BODY_POSES"})
+    log.write(0, channel, lcm_io::to_message(stamped(frame({}, 0))));
+  log.close();
+  const Outcome outcome = evaluate_program({folder / "out.log"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
 }
 
 TEST(EvaluateProgram, GoesOnWithATornLog) {
