@@ -80,6 +80,7 @@ start() {  # start NAME COMMAND...
 start lcm-logger lcm-logger --quiet "$run_log"
 logger=${pids[-1]}
 for module in reconstructor segmenter pose-fitter; do start "$module" "$bin/limbcast-$module"; done
+chain=("${pids[@]:1}")
 "$bin/limbcast-export-poses" --format text 2>"$output/processes/export-poses.txt" \
   > >(exec tee "$output/poses.txt") &
 pids+=($!)
@@ -91,17 +92,26 @@ for module in reconstructor segmenter pose-fitter export-poses; do
 done
 "$bin/${camera[0]}" "${camera[@]:1}" --rate "$rate" >"$output/processes/camera.txt" 2>&1 ||
   { cat "$output/processes/camera.txt" >&2; fail "the camera process failed"; }
-# The last frames are still on their way: done when no line has come for a second.
-before=-1
-while now=$(wc -l <"$output/poses.txt") && [ "$now" -ne "$before" ]; do
-  before=$now
+# The last frames are still on their way, on a busy machine the first one too: done when for a second no line has come and
+# the chain has hardly worked; before the first line for five, since starved processes stand still for a while.
+chain_ticks() {  # its processes' time of the processor, user and system [10 ms]
+  local pid
+  for pid in "${chain[@]}"; do cut -d ' ' -f 14,15 "/proc/$pid/stat" 2>/dev/null || true; done |
+    awk '{ sum += $1 + $2 } END { print sum + 0 }'
+}
+idle_ticks=2  # what waiting and telling the status takes of them at most in a second
+quiet=0 lines=0 ticks=0
+until [ "$quiet" -ge $((lines > 0 ? 1 : 5)) ]; do
   sleep 1
+  now_lines=$(wc -l <"$output/poses.txt")
+  now_ticks=$(chain_ticks)
+  quiet=$((now_lines != lines || now_ticks - ticks > idle_ticks ? 0 : quiet + 1))
+  lines=$now_lines ticks=$now_ticks
 done
 kill -INT "$logger"
 cleanup
 trap cleanup EXIT
 pids=()
-[ -s "$output/poses.txt" ] || { tail -n 3 "$output/processes/"*.txt >&2; fail "no pose came out, see above"; }
 sent=$(sed -n 's/.* \([0-9]*\) frames sent$/\1/p' "$output/processes/camera.txt")
 posed=$(cut -d ' ' -f 1 "$output/poses.txt" | sort -u | wc -l)
 echo "$posed of $sent frames have their poses"
@@ -111,7 +121,9 @@ if [ "$posed" -lt "$sent" ]; then
   cmake --build --preset release --target limbcast-replay
   "$bin/limbcast-replay" "$run_log" "$output/replayed.log"
   run_log=$output/replayed.log
+  [ "$posed" -gt 0 ] || "$bin/limbcast-export-poses" "$run_log" --format text | tee "$output/poses.txt"
 fi
+[ -s "$output/poses.txt" ] || { tail -n 3 "$output/processes/"*.txt >&2; fail "no pose came out, see above"; }
 
 step 4 "Pictures"
 "$bin/limbcast-viewer" "$run_log" --png "$output/pictures"
