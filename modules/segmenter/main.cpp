@@ -14,8 +14,9 @@ void run(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
 
-  lcm_io::Module module("segmenter", parser.common());
+  // Loading the networks takes longest: a module that says it is there hears what is sent.
   const Stage stage(options);
+  lcm_io::Module module("segmenter", parser.common());
   if (!stage.problem().empty()) {
     module.set_note(stage.problem());
     config::log(config::LogLevel::kWarning, stage.problem());
