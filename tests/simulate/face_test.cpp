@@ -35,7 +35,7 @@ TEST(Face, FadesWhereAPixelIsLargerThanTheMouth) {
   constexpr float kCoarsePixel = 0.012F;
   const float fine = painted(kMouth).sum();
   const float coarse = painted(kMouth, kFront, kCoarsePixel).sum();
-  EXPECT_GT(coarse, 1.3F * fine);
+  EXPECT_GT(coarse, 1.6F * fine);
   EXPECT_LT(coarse, kSkinColor.sum());
 }
 
