@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace limbcast::simulate {
 namespace {
@@ -19,14 +20,14 @@ struct Feature {
 using Paint = Feature::Paint;
 /// From the lowest layer to the uppermost.
 constexpr Feature kFeatures[] = {
-    {0.0175F, -0.0020F, 0.0130F, 0.0085F, Paint::kSkin, 0.84F, 0.84F, 0.86F},  // eye socket
-    {0.0180F, -0.0060F, 0.0086F, 0.0040F, Paint::kColor, 172.0F, 176.0F, 180.0F},
-    {0.0180F, -0.0056F, 0.0041F, 0.0041F, Paint::kColor, 34.0F, 42.0F, 56.0F},  // iris and pupil
-    {0.0180F, -0.0022F, 0.0094F, 0.0014F, Paint::kSkin, 0.40F, 0.40F, 0.45F},   // lashes
-    {0.0185F, 0.0066F, 0.0120F, 0.0026F, Paint::kBrow, 0.70F, 0.70F, 0.70F},
-    {0.0045F, -0.0275F, 0.0030F, 0.0016F, Paint::kSkin, 0.45F, 0.45F, 0.50F},  // nostril
-    {0.0F, -0.0440F, 0.0140F, 0.0050F, Paint::kSkin, 0.70F, 0.64F, 0.86F},     // lips
-    {0.0F, -0.0438F, 0.0145F, 0.0009F, Paint::kSkin, 0.38F, 0.36F, 0.45F},
+    {0.0175F, -0.0020F, 0.0130F, 0.0085F, Paint::kSkin, 0.84F, 0.84F, 0.86F},      // eye socket
+    {0.0180F, -0.0060F, 0.0086F, 0.0040F, Paint::kColor, 172.0F, 176.0F, 180.0F},  // eyeball
+    {0.0180F, -0.0056F, 0.0041F, 0.0041F, Paint::kColor, 34.0F, 42.0F, 56.0F},     // iris and pupil
+    {0.0180F, -0.0022F, 0.0094F, 0.0014F, Paint::kSkin, 0.40F, 0.40F, 0.45F},      // lashes
+    {0.0185F, 0.0066F, 0.0120F, 0.0026F, Paint::kBrow, 0.70F, 0.70F, 0.70F},       // brow
+    {0.0045F, -0.0275F, 0.0030F, 0.0016F, Paint::kSkin, 0.45F, 0.45F, 0.50F},      // nostril
+    {0.0F, -0.0440F, 0.0140F, 0.0050F, Paint::kSkin, 0.70F, 0.64F, 0.86F},         // lips
+    {0.0F, -0.0438F, 0.0145F, 0.0009F, Paint::kSkin, 0.38F, 0.36F, 0.45F},  // between the lips
 };
 
 /// Share of a pixel at (x, y) that the ellipse covers.
