@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/formatted.hpp"
 #include "modules/calibrate/board.hpp"
 #include "modules/calibrate/commands.hpp"
@@ -45,6 +46,7 @@ bool run_board(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return true;
   config::configure_log("calibrate", parser.common().log_level);
   if (output.empty()) throw config::UsageError("--output is missing; see --help");
+  config::check_output_file("--output", output);
 
   const Board board = to_board(options);
   const int square_px = cvRound(options.square_mm * dots_per_inch / kMillimetresPerInch);

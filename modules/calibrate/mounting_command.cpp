@@ -3,6 +3,7 @@
 
 #include "common/camera/calibration_io.hpp"
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/mounting.hpp"
@@ -26,6 +27,7 @@ bool run_mounting(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return true;
   if (output.empty()) throw config::UsageError("--output is missing; see --help");
+  config::check_output_file("--output", output);
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
 

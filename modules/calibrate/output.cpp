@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/config/options.hpp"
-
 namespace limbcast::calibrate {
 namespace {
 
@@ -49,16 +47,6 @@ void write_png_of_size(const std::string& path, const cv::Mat& image, double pix
              static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written");
-}
-
-void write_picture(const std::string& path, const cv::Mat& image) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, image);
-  } catch (const cv::Exception&) {
-    throw config::UsageError(path + ": no picture format has this ending; use .png");
-  }
-  if (!written) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace limbcast::calibrate

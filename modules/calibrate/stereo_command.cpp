@@ -2,12 +2,13 @@
 #include <cstdio>
 
 #include "common/camera/calibration_io.hpp"
+#include "common/camera/picture_file.hpp"
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/formatted.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/coverage.hpp"
-#include "modules/calibrate/output.hpp"
 #include "modules/calibrate/pair_input.hpp"
 #include "modules/calibrate/report.hpp"
 
@@ -126,6 +127,9 @@ bool run_stereo(int argc, const char* const* argv) {
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
   if (options.output.empty()) throw config::UsageError("--output is missing; see --help");
+  config::check_output_file("--output", options.output);
+  config::check_output_file("--picture", options.picture);
+  check_picture_ending(options.picture);
   return calibrate(options);
 }
 

@@ -1,10 +1,11 @@
 #include <cstdio>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "common/camera/picture_file.hpp"
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/pose_log.hpp"
 #include "common/pose_json/pose_lines.hpp"
 #include "modules/evaluate/picture.hpp"
@@ -49,6 +50,9 @@ void check(const Options& options) {
     throw UsageError("--poses needs --truth DIR: exported poses carry no truth");
   if (!options.bodies.empty() && options.truth.empty())
     throw UsageError("--bodies needs --truth DIR: a log's truth does not name the bodies");
+  config::check_output_file("--json", options.json);
+  config::check_output_file("--picture", options.picture);
+  check_picture_ending(options.picture);
 }
 
 std::vector<BodyPoses> read_log(const std::string& log, const std::string& channel) {
@@ -96,16 +100,6 @@ void write_file(const std::string& path, const std::string& text) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-void write_picture(const std::string& path, const Tally& tally) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, draw_error_distribution(tally));
-  } catch (const cv::Exception&) {
-    throw UsageError(path + ": no picture format has this ending; use .png");
-  }
-  if (!written) throw std::runtime_error(path + ": cannot be written");
-}
-
 void run(int argc, const char* const* argv) {
   Options options;
   config::Section section("evaluate");
@@ -131,7 +125,7 @@ void run(int argc, const char* const* argv) {
       options.brief ? report_line(report, tally) : report_text(report, tally, options.worst);
   std::fputs(text.c_str(), stdout);
   if (!options.json.empty()) write_file(options.json, report_json(report, tally));
-  if (!options.picture.empty()) write_picture(options.picture, tally);
+  if (!options.picture.empty()) write_picture(options.picture, draw_error_distribution(tally));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "common/bounded_map.hpp"
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/bus.hpp"
 #include "common/lcm_io/module.hpp"
@@ -249,6 +250,7 @@ void run(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
   config::configure_log("viewer", parser.common().log_level);
+  config::check_output_file("--video", options.video);
   lcm_io::install_signal_handlers();
   if (options.log.empty()) {
     view_live(options, parser.common().lcm_url);

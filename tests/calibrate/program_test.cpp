@@ -308,5 +308,28 @@ TEST(CalibrateProgram, ExplainsWrongUsage) {
   EXPECT_THAT(no_folder.err, HasSubstr("/nowhere"));
 }
 
+TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
+  const auto expect_refusal = [&](std::vector<std::string> arguments, const std::string& text) {
+    arguments.insert(arguments.end(), {"--source", "/nowhere"});
+    const Outcome outcome = run_program("limbcast-calibrate", arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, "limbcast-calibrate: " + text + "\n");
+  };
+  expect_refusal({"--output", "/none/c.yml"},
+                 "/none/c.yml: there is no folder /none; make it or choose another --output");
+  expect_refusal({"--output", "c.yml", "--picture", "/none/c.png"},
+                 "/none/c.png: there is no folder /none; make it or choose another --picture");
+  expect_refusal({"--output", "c.yml", "--picture", "c.odt"},
+                 "c.odt: no picture format has this ending; use .png");
+  expect_refusal({"mounting", "--output", "/none/c.yml"},
+                 "/none/c.yml: there is no folder /none; make it or choose another --output");
+}
+
+TEST(CalibrateProgram, RefusesToDrawABoardIntoAFolderThatIsMissing) {
+  const Outcome outcome = run_program("limbcast-calibrate", {"board", "--output", "/none/b.pdf"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there is no folder /none"));
+}
+
 }  // namespace
 }  // namespace limbcast::calibrate

@@ -129,6 +129,17 @@ TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
   expect_usage_error({folder / "bare.log", "--frobnicate", "1"}, "frobnicate");
 }
 
+TEST(EvaluateProgram, RefusesFilesThatItCannotWriteBeforeItReadsAnything) {
+  const auto refusal_of = [](const std::string& option, const std::string& path) {
+    const Outcome outcome = evaluate_program({"/none.log", option, path});
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(refusal_of("--json", "/none/a.json"), HasSubstr("no folder /none; make it"));
+  EXPECT_THAT(refusal_of("--picture", "/none/a.png"), HasSubstr("no folder /none; make it"));
+  EXPECT_THAT(refusal_of("--picture", "a.odt"), HasSubstr("a.odt: no picture format"));
+}
+
 TEST(EvaluateProgram, JudgesALogOfARoomWithoutPeople) {
   const TemporaryFolder folder;
   lcm_io::LogWriter log(folder / "out.log");

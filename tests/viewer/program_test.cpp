@@ -119,6 +119,7 @@ TEST(ViewerProgram, RefusesOutputsItCannotWrite) {
   folder.write("file", "");
   EXPECT_EQ(view({folder / "out.log", "--png", folder / "file"}).exit_code, 2);
   EXPECT_EQ(view({folder / "out.log", "--video", folder / "out.gif"}).exit_code, 2);
+  EXPECT_EQ(view({folder / "out.log", "--video", folder / "none/out.avi"}).exit_code, 2);
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#include "common/config/output_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "common/config/options.hpp"
+
+namespace limbcast::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+}  // namespace
+
+void check_output_file(const std::string& option, const std::string& path) {
+  if (path.empty()) return;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    throw UsageError(path + ": is a folder; give a file to " + option);
+  const std::string folder = folder_of(path);
+  if (!fs::is_directory(folder, ignored))
+    throw UsageError(path + ": there is no folder " + folder + "; make it or choose another " +
+                     option);
+  const std::string& written = fs::exists(path, ignored) ? path : folder;
+  if (access(written.c_str(), W_OK) != 0)
+    throw UsageError(path + ": cannot be written (" + std::strerror(errno) + "); choose another " +
+                     option);
+}
+
+}  // namespace limbcast::config

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace limbcast::config {
+
+/// Throws UsageError where no file can be written to `path`, which the user gave to `option` (e.g.
+/// "--output"); an empty path is none given. To be asked before the work whose result goes there:
+/// it may take minutes.
+void check_output_file(const std::string& option, const std::string& path);
+
+}  // namespace limbcast::config

@@ -1,0 +1,29 @@
+#include "common/camera/picture_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/input_error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace limbcast {
+namespace {
+
+TEST(PictureFile, HasAnEndingThatNamesAFormat) {
+  EXPECT_NO_THROW(check_picture_ending("report.png"));
+  EXPECT_NO_THROW(check_picture_ending("report.jpg"));
+  EXPECT_NO_THROW(check_picture_ending(""));
+  for (const std::string path : {"report.odt", "report"})
+    EXPECT_EQ(test::error_of<InputError>([&] { check_picture_ending(path); }),
+              path + ": no picture format has this ending; use .png");
+}
+
+TEST(PictureFile, IsNamedWhereItCannotBeWritten) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "none/report.png";
+  const cv::Mat image(2, 2, CV_8UC1, cv::Scalar(0));
+  EXPECT_EQ(test::error_of<std::runtime_error>([&] { write_picture(path, image); }),
+            path + ": cannot be written");
+}
+
+}  // namespace
+}  // namespace limbcast

@@ -1,0 +1,65 @@
+#include "common/config/output_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/config/options.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace limbcast::config {
+namespace {
+
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+std::string refusal_of(const std::string& path) {
+  return test::error_of<UsageError>([&] { check_output_file("--output", path); });
+}
+
+TEST(OutputFile, MayBeNewOrThereAlreadyOrNotGiven) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(check_output_file("--output", folder / "new.yml"));
+  EXPECT_NO_THROW(check_output_file("--output", folder.write("old.yml", "text")));
+  EXPECT_NO_THROW(check_output_file("--output", "in_the_working_folder.yml"));
+  EXPECT_NO_THROW(check_output_file("--output", "/dev/stdout"));
+  EXPECT_NO_THROW(check_output_file("--output", ""));
+}
+
+TEST(OutputFile, IsRefusedInAFolderThatIsMissing) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal_of(folder / "none/a.yml"), folder / "none/a.yml" + ": there is no folder " +
+                                                   folder / "none" +
+                                                   "; make it or choose another --output");
+}
+
+TEST(OutputFile, IsRefusedWhereAFolderStands) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal_of(folder.path()), folder.path() + ": is a folder; give a file to --output");
+}
+
+/// The administrator may write everywhere, so that those who test as such ask as somebody else.
+void give_up_rights() {
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() == 0 && setuid(kNobody) != 0) std::abort();
+}
+
+TEST(OutputFile, IsRefusedWhereTheUserMayNotWrite) {
+  const TemporaryFolder folder;
+  constexpr auto kToLookAt = static_cast<std::filesystem::perms>(0555);
+  std::filesystem::permissions(folder.path(), kToLookAt);
+  const auto tell = [&] {
+    give_up_rights();
+    std::fputs(refusal_of(folder / "a.yml").c_str(), stderr);
+    std::exit(0);
+  };
+  EXPECT_EXIT(tell(), ::testing::ExitedWithCode(0),
+              HasSubstr("/a.yml: cannot be written (Permission denied); choose another --output"));
+}
+
+}  // namespace
+}  // namespace limbcast::config
