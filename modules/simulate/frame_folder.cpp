@@ -45,9 +45,13 @@ void write_pcd(const std::string& path, const LaserScan& scan) {
 
 FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& params)
     : folder_(folder), params_(params) {
+  const std::string timestamps = folder + "/timestamps.csv";
   std::error_code error;
+  if (std::filesystem::exists(timestamps, error))
+    throw config::UsageError(
+        folder + ": holds a recording already; choose another --output or delete the folder");
   std::filesystem::create_directories(folder, error);
-  timestamps_.open(folder + "/timestamps.csv");
+  timestamps_.open(timestamps);
   if (error || !timestamps_)
     throw config::UsageError(folder + ": cannot write there; choose another --output");
   timestamps_ << "name,utime,down_x,down_y,down_z\n";

@@ -16,7 +16,8 @@ namespace limbcast::simulate {
 /// parts).
 class FrameFolder {
  public:
-  /// Makes the folder where it is missing. Throws config::UsageError where it cannot.
+  /// Makes the folder where it is missing. Throws config::UsageError where it cannot, and where the
+  /// folder holds a recording: frames of two runs would be taken for one set.
   FrameFolder(const std::string& folder, const SimulatorParams& params);
 
   /// Throws std::runtime_error with the file's name where it cannot be written.

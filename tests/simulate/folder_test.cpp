@@ -74,6 +74,22 @@ TEST_F(FolderTest, AFolderThatCannotBeMadeIsWrongUsage) {
   EXPECT_THROW(FrameFolder("/proc/nowhere", SimulatorParams{}), config::UsageError);
 }
 
+TEST_F(FolderTest, AFolderThatHoldsARecordingIsRefusedAndStaysAsItIs) {
+  write_frames(SensorKind::kLaser, 1);
+  const auto size = std::filesystem::file_size(folder_ / "timestamps.csv");
+
+  EXPECT_EQ(
+      test::error_of<config::UsageError>([&] { write_frames(SensorKind::kStereo, 1); }),
+      folder_.path() + ": holds a recording already; choose another --output or delete the folder");
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "timestamps.csv"), size);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "calibration.yml"));
+}
+
+TEST_F(FolderTest, AFolderThatHoldsOtherThingsIsUsed) {
+  folder_.write("notes.txt", "of the set");
+  EXPECT_NO_THROW(write_frames(SensorKind::kLaser, 1));
+}
+
 TEST(Options, RefuseWhatContradictsItself) {
   SimulateOptions options;
   options.output = "folder";
