@@ -31,7 +31,8 @@ class FrameSource {
   virtual bool live() const = 0;
   /// Nothing where there is nothing to count.
   virtual std::optional<SourceStatistics> statistics() const { return std::nullopt; }
-  /// What is wrong now with a live source; empty: nothing.
+  /// What is wrong now with a live source, or with a recording that was read to its end; empty:
+  /// nothing.
   virtual std::string problem() const { return ""; }
   /// For the log at start: what it is, how many frames.
   virtual std::string description() const = 0;

@@ -132,12 +132,7 @@ class VelodyneSource : public CloudSource {
   }
   bool ended() const override { return ended_; }
   bool live() const override { return is_live_; }
-  std::string problem() const override {
-    const std::chrono::duration<double> silent_for = Clock::now() - last_packet_at_;
-    if (!is_live_ || silent_for.count() < params_.stall_timeout_s) return "";
-    return params_.source + ": no packets for " + formatted("%g", params_.stall_timeout_s) +
-           " s; is the scanner on, and does it send to this host and port?";
-  }
+  std::string problem() const override { return is_live_ ? silence() : torn_end(); }
   std::string description() const override {
     return params_.source + (is_live_ ? ": Velodyne, live" : ": Velodyne, recorded");
   }
@@ -150,6 +145,19 @@ class VelodyneSource : public CloudSource {
     if (model) decoder_.emplace(*model);
     if (!model && model_finder_.gave_up()) throw unknown_model();
     return model.has_value();
+  }
+  /// What is wrong with a scanner that sends nothing; empty where it does.
+  std::string silence() const {
+    const std::chrono::duration<double> silent_for = Clock::now() - last_packet_at_;
+    if (silent_for.count() < params_.stall_timeout_s) return "";
+    return params_.source + ": no packets for " + formatted("%g", params_.stall_timeout_s) +
+           " s; is the scanner on, and does it send to this host and port?";
+  }
+  /// What is wrong with a recording that was read to its end; empty where nothing is.
+  std::string torn_end() const {
+    if (packets_.torn_bytes() == 0) return "";
+    return params_.source + ": is torn, its last " + std::to_string(packets_.torn_bytes()) +
+           " bytes are no whole packet and were left out";
   }
   InputError unknown_model() const {
     return InputError(params_.source + ": its packets name no known model; give --velodyne-model");

@@ -61,6 +61,7 @@ PcapReader::PcapReader(const std::string& path) : path_(path), file_(path, std::
   if (!bytes)
     throw InputError(path + ": was recorded on an unknown kind of link; record on Ethernet");
   link_bytes_ = *bytes;
+  records_end_bytes_ = file_.tellg();
 }
 
 std::uint32_t PcapReader::number_32(const std::uint8_t* bytes) const {
@@ -69,21 +70,34 @@ std::uint32_t PcapReader::number_32(const std::uint8_t* bytes) const {
   return swapped_ ? __builtin_bswap32(number) : number;
 }
 
-std::optional<Packet> PcapReader::next() {
+/// What a link carried, as a packet; nothing at the end and where the file is torn.
+std::optional<Packet> PcapReader::next_frame() {
   std::array<std::uint8_t, 16> header{};
-  while (file_.read(reinterpret_cast<char*>(header.data()), header.size())) {
-    const std::uint32_t size = number_32(&header[8]);
-    if (size > kLargestPacket) return std::nullopt;
-    std::vector<std::uint8_t> frame(size);
-    if (!file_.read(reinterpret_cast<char*>(frame.data()), size)) return std::nullopt;
-    Packet packet;
-    packet.payload = udp_payload(frame, link_bytes_);
-    if (packet.payload.empty()) continue;
-    const std::int64_t fraction = number_32(&header[4]);
-    packet.utime = std::int64_t{1'000'000} * number_32(header.data()) +
-                   (nanoseconds_ ? fraction / 1000 : fraction);
-    return packet;
+  if (!file_.read(reinterpret_cast<char*>(header.data()), header.size())) return std::nullopt;
+  const std::uint32_t size = number_32(&header[8]);
+  if (size > kLargestPacket) return std::nullopt;
+  const std::int64_t fraction = number_32(&header[4]);
+  Packet frame;
+  frame.utime = std::int64_t{1'000'000} * number_32(header.data()) +
+                (nanoseconds_ ? fraction / 1000 : fraction);
+  frame.payload.resize(size);
+  if (!file_.read(reinterpret_cast<char*>(frame.payload.data()), size)) return std::nullopt;
+  records_end_bytes_ = file_.tellg();
+  return frame;
+}
+
+std::int64_t PcapReader::bytes_behind_records() {
+  file_.clear();
+  file_.seekg(0, std::ios::end);
+  return file_.tellg() - records_end_bytes_;
+}
+
+std::optional<Packet> PcapReader::next() {
+  while (const std::optional<Packet> frame = next_frame()) {
+    Packet packet{frame->utime, udp_payload(frame->payload, link_bytes_)};
+    if (!packet.payload.empty()) return packet;
   }
+  torn_bytes_ = bytes_behind_records();
   return std::nullopt;
 }
 

@@ -116,6 +116,20 @@ TEST_F(LaserScannerProgram, SendsIntensitiesAndRingsOfAVelodyneAndReplayKeepsThe
   }
 }
 
+TEST_F(LaserScannerProgram, GoesOnWithATornRecordingAndSaysSoOnce) {
+  const std::string packets = laser_scanner::pcap_of(laser_scanner::vlp16_turns(2, 4.0));
+  std::ofstream(folder_ + "/a.pcap", std::ios::binary) << packets.substr(0, packets.size() - 1);
+  const RunResult logged = write_log({"--source", folder_ + "/a.pcap"});
+  const RunResult sent = run({program("limbcast-laser-scanner"), "--source", folder_ + "/a.pcap",
+                              "--lcm-url", private_lcm_url()});
+  for (const RunResult& result : {logged, sent}) {
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("a.pcap: is torn, its last 1263 bytes"));
+    EXPECT_EQ(result.output.find("torn"), result.output.rfind("torn"));
+    EXPECT_THAT(result.output, HasSubstr("1 frames sent"));
+  }
+}
+
 TEST_F(LaserScannerProgram, SendsIntensitiesOfARecordedScan) {
   const std::string data = LIMBCAST_DATA_DIR;
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <fstream>
 
 #include "common/input_error.hpp"
 #include "modules/laser_scanner/cloud_source.hpp"
@@ -205,6 +206,31 @@ TEST_F(Recorded, PcapThatIsTornGivesWhatIsWhole) {
   EXPECT_TRUE(source->next());
   EXPECT_FALSE(source->next());
   EXPECT_TRUE(source->ended());
+}
+
+/// The problem of a recording of two turns, without so many of its last bytes, when it was read.
+std::string problem_without_last(std::size_t bytes_missing, const CloudSourceParams& params) {
+  std::string bytes = pcap_of(vlp16_turns(2, 4.0));
+  bytes.resize(bytes.size() - bytes_missing);
+  std::ofstream(params.source, std::ios::binary) << bytes;
+  const auto source = open_cloud_source(params);
+  while (source->next()) EXPECT_EQ(source->problem(), "");
+  return source->problem();
+}
+
+TEST_F(Recorded, PcapThatIsTornSaysSoWhenItWasRead) {
+  const std::string path = folder_ / "a.pcap";
+  // A record: 16 bytes, then the frame: 42 bytes of Ethernet, IP and UDP, then the packet.
+  constexpr std::size_t kHeaderBytes = 16;
+  constexpr std::size_t kRecordBytes = kHeaderBytes + 42 + kVelodynePacketBytes;
+  EXPECT_EQ(problem_without_last(0, params(path)), "");
+  EXPECT_EQ(problem_without_last(kRecordBytes, params(path)), "");
+  EXPECT_EQ(problem_without_last(5, params(path)),
+            path + ": is torn, its last " + std::to_string(kRecordBytes - 5) +
+                " bytes are no whole packet and were left out");
+  EXPECT_THAT(problem_without_last(kRecordBytes - kHeaderBytes, params(path)),
+              HasSubstr("its last 16 bytes"));
+  EXPECT_THAT(problem_without_last(kRecordBytes - 3, params(path)), HasSubstr("its last 3 bytes"));
 }
 
 TEST_F(Recorded, PcapThatCannotBeUsedIsNamed) {
