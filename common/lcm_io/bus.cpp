@@ -38,9 +38,15 @@ std::string url_within_limits(const std::string& url) {
 }  // namespace
 
 std::string chosen_url(const std::string& url) {
-  if (!url.empty()) return url;
-  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
-  return from_environment != nullptr && *from_environment != '\0' ? from_environment : kDefaultUrl;
+  const char* environment = std::getenv("LCM_DEFAULT_URL");
+  const std::string otherwise =
+      environment != nullptr && *environment != '\0' ? environment : kDefaultUrl;
+  const std::string& chosen = url.empty() ? otherwise : url;
+  const std::string fault = url_fault(chosen);
+  if (!fault.empty())
+    throw config::UsageError((url.empty() ? "LCM_DEFAULT_URL '" : "lcm-url '") + chosen +
+                             "': " + fault + "; write it like udpm://239.255.76.67:7667?ttl=1");
+  return chosen;
 }
 
 std::string effective_url(const std::string& url) { return with_receive_buffer(chosen_url(url)); }

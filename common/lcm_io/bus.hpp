@@ -20,7 +20,8 @@ namespace limbcast::lcm_io {
 /// This host only, unless the user says otherwise: LCM has no authentication.
 inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-/// `url` if given, else $LCM_DEFAULT_URL, else kDefaultUrl.
+/// `url` if given, else $LCM_DEFAULT_URL, else kDefaultUrl. Throws config::UsageError where it is
+/// malformed.
 std::string chosen_url(const std::string& url);
 /// The chosen URL with the receive buffer that limbcast needs, where it names none.
 std::string effective_url(const std::string& url);

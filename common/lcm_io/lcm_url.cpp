@@ -3,28 +3,71 @@
 #include <arpa/inet.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <string_view>
 
 namespace limbcast::lcm_io {
 namespace {
 
-/// "ttl=1&recv_buf_size=4000000"
-bool read_arguments(const std::string& text, MulticastUrl& url) {
+/// What LCM can be told to talk over; only udpm is looked at closer.
+constexpr std::array<std::string_view, 5> kKinds = {"udpm", "mpudpm", "tcpq", "memq", "file"};
+
+/// The parts of a udpm URL, each perhaps missing: address, port, arguments.
+const std::regex& multicast_form() {
+  static const std::regex kForm(R"(udpm://([^:?]*)(?::([^?]*))?(?:\?(.*))?)");
+  return kForm;
+}
+
+std::string fault_of_address(const std::string& text) {
+  in_addr address{};
+  if (inet_pton(AF_INET, text.c_str(), &address) != 1) return "'" + text + "' is no IPv4 address";
+  if (!IN_MULTICAST(ntohl(address.s_addr)))
+    return "'" + text + "' is no multicast address (224.0.0.0 to 239.255.255.255)";
+  return "";
+}
+
+std::string fault_of_port(const std::string& text) {
+  static const std::regex kDigits("[0-9]{1,5}");
+  constexpr int kLargest = 65535;
+  if (text.empty()) return "has no port";
+  const int port = std::regex_match(text, kDigits) ? std::stoi(text) : 0;
+  return port > 0 && port <= kLargest ? "" : "'" + text + "' is no port (1 to 65535)";
+}
+
+/// "ttl=1&recv_buf_size=4000000" into `url`; returns what is wrong, empty for nothing.
+std::string read_arguments(const std::string& text, MulticastUrl& url) {
+  static const std::regex kForm("(ttl|recv_buf_size)=([0-9]{1,9})");
+  constexpr int kLargestTtl = 255;
   std::istringstream arguments(text);
   std::string argument;
   while (std::getline(arguments, argument, '&')) {
-    static const std::regex kForm("([a-z_]+)=([0-9]{1,9})");
     std::smatch match;
-    if (!std::regex_match(argument, match, kForm)) return false;
-    const int value = std::stoi(match[2]);
-    if (match[1] == "ttl") url.ttl = value;
-    if (match[1] == "recv_buf_size") url.recv_buf_size = value;
+    const bool is_known = std::regex_match(argument, match, kForm);
+    const int value = is_known ? std::stoi(match[2]) : 0;
+    const bool is_ttl = is_known && match[1] == "ttl";
+    if (!is_known || (is_ttl && value > kLargestTtl))
+      return "'" + argument + "' is neither ttl=0 to 255 nor recv_buf_size=BYTES";
+    (is_ttl ? url.ttl : url.recv_buf_size) = value;
   }
-  return true;
+  return "";
+}
+
+/// Reads a udpm URL; returns what is wrong with it, empty for nothing.
+std::string read_multicast_url(const std::smatch& parts, MulticastUrl& url) {
+  // LCM has a group of its own where none is named; but it has no port for one that is.
+  if (parts[1].length() > 0 || parts[2].matched) {
+    for (const std::string& fault : {fault_of_address(parts[1]), fault_of_port(parts[2])})
+      if (!fault.empty()) return fault;
+    url.address = parts[1];
+    url.port = std::stoi(parts[2]);
+  }
+  return read_arguments(parts[3], url);
 }
 
 }  // namespace
@@ -37,17 +80,21 @@ sockaddr_in MulticastUrl::socket_address() const {
   return socket_address;
 }
 
+std::string url_fault(const std::string& url) {
+  const std::size_t kind_end = url.find("://");
+  const bool is_known =
+      kind_end != std::string::npos &&
+      std::find(kKinds.begin(), kKinds.end(), url.substr(0, kind_end)) != kKinds.end();
+  if (!is_known) return "does not begin with udpm://";
+  std::smatch parts;
+  MulticastUrl ignored;
+  return std::regex_match(url, parts, multicast_form()) ? read_multicast_url(parts, ignored) : "";
+}
+
 std::optional<MulticastUrl> parse_multicast_url(const std::string& url) {
-  static const std::regex kForm(R"(udpm://([0-9.]*)(?::([0-9]{1,5}))?(?:\?(.*))?)");
-  std::smatch match;
-  if (!std::regex_match(url, match, kForm)) return std::nullopt;
+  std::smatch parts;
   MulticastUrl parsed;
-  if (match[1].length() > 0) parsed.address = match[1];
-  if (match[2].matched) parsed.port = std::stoi(match[2]);
-  in_addr address{};
-  constexpr int kLargestPort = 65535;
-  if (inet_pton(AF_INET, parsed.address.c_str(), &address) != 1 || parsed.port > kLargestPort ||
-      !read_arguments(match[3], parsed))
+  if (!std::regex_match(url, parts, multicast_form()) || !read_multicast_url(parts, parsed).empty())
     return std::nullopt;
   return parsed;
 }

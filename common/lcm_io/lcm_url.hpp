@@ -18,6 +18,10 @@ struct MulticastUrl {
   sockaddr_in socket_address() const;
 };
 
+/// What is wrong with an LCM URL, e.g. "has no port"; empty: nothing. LCM would take some such URLs
+/// for others, or blame the firewall.
+std::string url_fault(const std::string& url);
+
 /// Nothing for another kind of URL (memq://, file://) and for one that makes no sense.
 std::optional<MulticastUrl> parse_multicast_url(const std::string& url);
 

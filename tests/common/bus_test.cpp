@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limbcast/image_t.hpp>
 #include <limbcast/mounting_t.hpp>
 
 #include "common/config/options.hpp"
 #include "common/lcm_io/lcm_url.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -126,6 +128,20 @@ TEST(DefaultUrl, StaysOnThisHost) {
   const auto url = parse_multicast_url(kDefaultUrl);
   ASSERT_TRUE(url);
   EXPECT_EQ(url->ttl, 0);
+}
+
+/// What is told of a URL of the option, or of the environment where the option is empty.
+std::string refusal_of(const std::string& option) {
+  return test::error_of<config::UsageError>([&] { chosen_url(option); });
+}
+
+TEST(ChosenUrl, IsRefusedWhereItIsMalformedAndNamesWhoGaveIt) {
+  const std::string reason =
+      "'udpm://239.1.2.3': has no port; write it like udpm://239.255.76.67:7667?ttl=1";
+  EXPECT_EQ(refusal_of("udpm://239.1.2.3"), "lcm-url " + reason);
+  setenv("LCM_DEFAULT_URL", "udpm://239.1.2.3", 1);
+  EXPECT_EQ(refusal_of(""), "LCM_DEFAULT_URL " + reason);
+  unsetenv("LCM_DEFAULT_URL");
 }
 
 TEST(EffectiveUrl, HasRoomForSeveralImagesWhereTheChosenUrlNamesNoBuffer) {

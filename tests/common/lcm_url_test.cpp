@@ -23,9 +23,34 @@ TEST(ParseMulticastUrl, TakesLcmsDefaultsForWhatIsLeftOut) {
 }
 
 TEST(ParseMulticastUrl, RefusesWhatIsNoMulticastUrl) {
-  for (const char* text : {"memq://", "file:///tmp/run.log", "udpm://host:7667",
-                           "udpm://239.1.2.3:99999", "udpm://239.1.2.3:7667?ttl=-1", "nonsense"})
+  for (const char* text :
+       {"memq://", "file:///tmp/run.log", "udpm://host:7667", "udpm://239.1.2.3:99999",
+        "udpm://239.1.2.3:7667?ttl=-1", "udpm://239.1.2.3", "nonsense"})
     EXPECT_FALSE(parse_multicast_url(text)) << text;
+}
+
+TEST(UrlFault, IsNoneOfWhatLcmUnderstands) {
+  for (const char* url : {"udpm://", "udpm://?ttl=1", "udpm://239.255.76.67:7667",
+                          "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4000000", "memq://",
+                          "file:///tmp/run.log", "tcpq://robot:7700", "mpudpm://239.1.2.3:7667"})
+    EXPECT_EQ(url_fault(url), "") << url;
+}
+
+TEST(UrlFault, NamesThePartThatIsWrong) {
+  EXPECT_EQ(url_fault("udpm://239.255.76.67"), "has no port");
+  EXPECT_EQ(url_fault("udpm://239.255.76.67?ttl=1"), "has no port");
+  EXPECT_EQ(url_fault("udpm://239.1.2.3:0"), "'0' is no port (1 to 65535)");
+  EXPECT_EQ(url_fault("udpm://239.1.2.3:99999"), "'99999' is no port (1 to 65535)");
+  EXPECT_EQ(url_fault("udpm://host:7667"), "'host' is no IPv4 address");
+  EXPECT_EQ(url_fault("udpm://:7667"), "'' is no IPv4 address");
+  EXPECT_EQ(url_fault("udpm://10.0.0.1:7667"),
+            "'10.0.0.1' is no multicast address (224.0.0.0 to 239.255.255.255)");
+  for (const std::string argument :
+       {"ttl", "ttl=", "ttl=-1", "ttl=256", "tll=1", "ttl=1,a=2", "=1"})
+    EXPECT_EQ(url_fault("udpm://239.1.2.3:7667?" + argument),
+              "'" + argument + "' is neither ttl=0 to 255 nor recv_buf_size=BYTES");
+  for (const char* url : {"nonsense", "upd://239.1.2.3:7667", "239.1.2.3:7667"})
+    EXPECT_EQ(url_fault(url), "does not begin with udpm://") << url;
 }
 
 TEST(WithReceiveBuffer, AsksForSeveralImagesWhereAMulticastUrlNamesNoBuffer) {

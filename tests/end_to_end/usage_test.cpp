@@ -38,6 +38,14 @@ TEST_P(EveryProgram, RefusesAMissingConfigurationFile) {
   EXPECT_EQ(result.exit_code, kWrongUsage) << result.output;
 }
 
+TEST(LcmUrl, IsRefusedInOneLineWhereItIsMalformed) {
+  const RunResult result = run({program("limbcast-segmenter"), "--lcm-url", "udpm://239.1.2.3"});
+  EXPECT_EQ(result.exit_code, kWrongUsage);
+  EXPECT_EQ(result.output,
+            "limbcast-segmenter: lcm-url 'udpm://239.1.2.3': has no port; write it like "
+            "udpm://239.255.76.67:7667?ttl=1\n");
+}
+
 INSTANTIATE_TEST_SUITE_P(Programs, EveryProgram,
                          ::testing::Values("limbcast-stereo-camera", "limbcast-depth-camera",
                                            "limbcast-reconstructor", "limbcast-segmenter",
