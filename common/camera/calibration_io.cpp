@@ -280,6 +280,22 @@ fs::path right_of(const fs::path& left) {
   return left.parent_path() / name;
 }
 
+/// Recordings of both kinds of camera have a calibration.yml.
+void check_is_stereo(const YamlReader& yaml) {
+  for (const char* key : {"depth_scale", "depth_camera_matrix"}) {
+    if (yaml.has(key))
+      throw InputError(yaml.path() + ": is a depth camera's calibration (has '" + key +
+                       "'), for limbcast-depth-camera; give a stereo camera's");
+  }
+}
+
+void check_is_depth(const YamlReader& yaml) {
+  const std::string key = yaml.first_of({"K1", "M1"});
+  if (!yaml.has("camera_matrix") && yaml.has(key))
+    throw InputError(yaml.path() + ": is a stereo camera's calibration (has '" + key +
+                     "'), for limbcast-stereo-camera; give a depth camera's");
+}
+
 }  // namespace
 
 StereoCalibration read_stereo_calibration(const std::string& path) {
@@ -288,6 +304,7 @@ StereoCalibration read_stereo_calibration(const std::string& path) {
                          YamlReader(yaml_in(path, "right").string()));
   }
   const YamlReader yaml(path);
+  check_is_stereo(yaml);
   if (!yaml.has("camera_matrix")) return read_opencv_stereo(yaml);
   return read_ros_pair(yaml, YamlReader(right_of(path).string()));
 }
@@ -313,7 +330,12 @@ void write_depth_calibration(const std::string& path, const DepthCalibration& ca
 }
 
 DepthCalibration read_depth_calibration(const std::string& path) {
+  if (fs::is_directory(path))
+    throw InputError(path +
+                     ": is a folder, as a stereo pair's calibration may be; give the file "
+                     "of a depth camera's");
   const YamlReader yaml(path);
+  check_is_depth(yaml);
   DepthCalibration calibration;
   calibration.color = read_ros_lens(yaml);
   calibration.depth_camera = read_depth_camera(yaml);

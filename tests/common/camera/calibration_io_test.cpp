@@ -319,6 +319,25 @@ TEST_F(DepthCalibrationFile, RefusesAScaleThatCannotBe) {
   EXPECT_THAT(error_of<InputError>([&] { read(); }), HasSubstr("'depth_scale' is 0"));
 }
 
+TEST(CalibrationOfTheOtherKind, IsCalledSo) {
+  const TemporaryFolder folder;
+  const std::string stereo = folder.write("stereo.yml", yaml(opencv_entries()));
+  Entries entries = ros_entries("0");
+  entries["depth_scale"] = "0.001";
+  const std::string depth = folder.write("depth.yml", yaml(entries));
+
+  EXPECT_EQ(error_of<InputError>([&] { read_stereo_calibration(depth); }),
+            depth +
+                ": is a depth camera's calibration (has 'depth_scale'), for "
+                "limbcast-depth-camera; give a stereo camera's");
+  EXPECT_EQ(error_of<InputError>([&] { read_depth_calibration(stereo); }),
+            stereo +
+                ": is a stereo camera's calibration (has 'K1'), for "
+                "limbcast-stereo-camera; give a depth camera's");
+  EXPECT_THAT(error_of<InputError>([&] { read_depth_calibration(folder.path()); }),
+              HasSubstr(": is a folder, as a stereo pair's calibration may be"));
+}
+
 TEST_F(DepthCalibrationFile, OfTheRealRecordingsIsRead) {
   const std::string data = LIMBCAST_DATA_DIR;
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
