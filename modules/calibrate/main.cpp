@@ -12,9 +12,14 @@ bool run(int argc, const char* const* argv) {
   using Command = bool (*)(int, const char* const*);
   static const std::map<std::string, Command> kCommands = {
       {"board", run_board}, {"check", run_check}, {"mounting", run_mounting}};
-  const auto command = argc > 1 ? kCommands.find(argv[1]) : kCommands.end();
+  const std::string first = argc > 1 ? argv[1] : "";
+  const auto command = kCommands.find(first);
   // The command's name takes the place of the program's, which the parser passes over.
   if (command != kCommands.end()) return command->second(argc - 1, argv + 1);
+  if (!first.empty() && first.front() != '-')
+    throw config::UsageError("command line: '" + first +
+                             "' is no command; use board, check or mounting, or options alone to "
+                             "calibrate, see limbcast-calibrate --help");
   return run_stereo(argc, argv);
 }
 

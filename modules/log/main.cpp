@@ -151,8 +151,9 @@ void run(int argc, const char* const* argv) {
   if (command == "cut") return run_cut(argc - 1, argv + 1);
   if (command == "merge") return run_merge(argc - 1, argv + 1);
   if (command == "extract") return run_extract(argc - 1, argv + 1);
-  throw UsageError("command line: '" + command +
-                   "' is no command; use info, cut, merge or extract, see limbcast-log --help");
+  throw UsageError("command line: " +
+                   (command.empty() ? "no command is given" : "'" + command + "' is no command") +
+                   "; use info, cut, merge or extract, see limbcast-log --help");
 }
 
 }  // namespace

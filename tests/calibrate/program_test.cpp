@@ -308,6 +308,14 @@ TEST(CalibrateProgram, ExplainsWrongUsage) {
   EXPECT_THAT(no_folder.err, HasSubstr("/nowhere"));
 }
 
+TEST(CalibrateProgram, NamesItsCommandsWhereOneIsUnknown) {
+  const Outcome outcome = run_program("limbcast-calibrate", {"chek", "--source", "/nowhere"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err,
+            "limbcast-calibrate: command line: 'chek' is no command; use board, check or mounting, "
+            "or options alone to calibrate, see limbcast-calibrate --help\n");
+}
+
 TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
   const auto expect_refusal = [&](std::vector<std::string> arguments, const std::string& text) {
     arguments.insert(arguments.end(), {"--source", "/nowhere"});

@@ -113,9 +113,22 @@ TEST_F(Cut, WorksFromTheCommandLine) {
       test::run({test::program("limbcast-log"), "cut", in_, out_, "--channel", "F.*"}).exit_code,
       0);
   EXPECT_EQ(events_in(out_).size(), 10U);
-  EXPECT_EQ(test::run({test::program("limbcast-log"), "cat", in_}).exit_code, 2);
   EXPECT_EQ(test::run({test::program("limbcast-log"), "cut", in_}).exit_code, 2);
   EXPECT_EQ(test::run({test::program("limbcast-log"), "--help"}).exit_code, 0);
+}
+
+TEST(LogProgram, NamesItsCommandsWhereNoneOrAnUnknownOneIsGiven) {
+  const auto refusal_of = [](const std::vector<std::string>& arguments) {
+    std::vector<std::string> command = {test::program("limbcast-log")};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const test::RunResult result = test::run(command);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.output;
+  };
+  const std::string commands = "; use info, cut, merge or extract, see limbcast-log --help\n";
+  EXPECT_EQ(refusal_of({}), "limbcast-log: command line: no command is given" + commands);
+  EXPECT_EQ(refusal_of({"cat", "in.log"}),
+            "limbcast-log: command line: 'cat' is no command" + commands);
 }
 
 class Merge : public ::testing::Test {
