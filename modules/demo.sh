@@ -5,21 +5,27 @@
 #   modules/demo.sh FOLDER_OR_LOG [CALIBRATION]  your own: *_left/*_right images, *_color/*_depth images, or a log
 #                                              made by lcm-logger; CALIBRATION: default FOLDER/calibration.yml
 # Settings (environment): DEMO_OUTPUT folder for log and pictures, DEMO_RATE frames a second.
+# Exit codes: 0 done, 1 failed, 2 wrong usage or input.
 set -euo pipefail
 start_folder=$PWD
 cd "$(dirname "$0")/.."
 root=$PWD
 
+fail() { echo "demo: $*" >&2; exit 1; }
+refuse() { echo "demo: $*" >&2; exit 2; }
+step() { printf '\n[%s/5] %s\n' "$1" "$2"; }
+
+usage="call it as modules/demo.sh [FOLDER_OR_LOG [CALIBRATION]]"
+case ${1:-} in -*) refuse "$1: there are no options; $usage" ;; esac
+[ $# -le 2 ] || refuse "$3: one argument too many; $usage"
 input=${1:-$root/logs/demo.log}
 calibration=${2:-}
 rate=${DEMO_RATE:-5}
 output=${DEMO_OUTPUT:-$root/demo-output}
 case $input in /*) ;; *) input=$start_folder/$input ;; esac
+case $calibration in '' | /*) ;; *) calibration=$start_folder/$calibration ;; esac
 case $output in /*) ;; *) output=$start_folder/$output ;; esac
 bin=$root/build/release/bin
-
-fail() { echo "demo: $*" >&2; exit 1; }
-step() { printf '\n[%s/5] %s\n' "$1" "$2"; }
 
 pids=()
 cleanup() {
@@ -30,7 +36,24 @@ cleanup() {
 trap cleanup EXIT
 trap 'cleanup; exit 130' INT TERM
 
-[ -e "$input" ] || fail "$input: no such folder or log"
+[ -e "$input" ] || refuse "$input: no such folder or log"
+
+# What feeds the chain: the camera process of this kind of recording.
+if [ -d "$input" ]; then
+  calibration=${calibration:-$input/calibration.yml}
+  [ -e "$calibration" ] || refuse "$calibration: no such calibration; give it as second argument"
+  if compgen -G "$input/*_left.*" >/dev/null; then
+    camera=(limbcast-stereo-camera --source "$input" --calibration "$calibration")
+  elif compgen -G "$input/*_color.*" >/dev/null; then
+    camera=(limbcast-depth-camera --source "$input" --calibration "$calibration")
+  else
+    refuse "$input: holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images"
+  fi
+elif grep -aq -m 1 DEPTH_IMAGES "$input"; then
+  camera=(limbcast-depth-camera --source "$input")
+else
+  camera=(limbcast-stereo-camera --source "$input")
+fi
 
 step 1 "What limbcast needs"
 modules/install_dependencies.sh run
@@ -41,23 +64,6 @@ build_log=$(mktemp)
 cmake --preset release >"$build_log" 2>&1 || { tail -n 30 "$build_log" >&2; fail "cmake failed, see above"; }
 cmake --build --preset release --target limbcast_demo_programs
 rm -f "$build_log"
-
-# What feeds the chain: the camera process of this kind of recording.
-if [ -d "$input" ]; then
-  calibration=${calibration:-$input/calibration.yml}
-  [ -e "$calibration" ] || fail "$calibration: no such calibration; give it as second argument"
-  if compgen -G "$input/*_left.*" >/dev/null; then
-    camera=(limbcast-stereo-camera --source "$input" --calibration "$calibration")
-  elif compgen -G "$input/*_color.*" >/dev/null; then
-    camera=(limbcast-depth-camera --source "$input" --calibration "$calibration")
-  else
-    fail "$input: holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images"
-  fi
-elif grep -aq -m 1 DEPTH_IMAGES "$input"; then
-  camera=(limbcast-depth-camera --source "$input")
-else
-  camera=(limbcast-stereo-camera --source "$input")
-fi
 
 step 3 "Run: ${camera[0]#limbcast-}, reconstructor, segmenter, pose-fitter, recorded by lcm-logger"
 # A port of its own, so that no other LCM traffic is disturbed; ttl=0: nothing leaves this host.
@@ -91,7 +97,7 @@ for module in reconstructor segmenter pose-fitter export-poses; do
   done
 done
 "$bin/${camera[0]}" "${camera[@]:1}" --rate "$rate" >"$output/processes/camera.txt" 2>&1 ||
-  { cat "$output/processes/camera.txt" >&2; fail "the camera process failed"; }
+  { code=$?; cat "$output/processes/camera.txt" >&2; echo "demo: the camera process failed" >&2; exit "$code"; }
 # The last frames are still on their way, on a busy machine the first one too: done when for a second no line has come and
 # the chain has hardly worked; before the first line for five, since starved processes stand still for a while.
 chain_ticks() {  # its processes' time of the processor, user and system [10 ms]

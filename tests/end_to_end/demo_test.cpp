@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/child_process.hpp"
+
+namespace limbcast::test {
+namespace {
+
+constexpr int kRefused = 2;
+
+/// What modules/demo.sh says of arguments that it refuses, called from another folder.
+class Demo : public ::testing::Test {
+ protected:
+  std::string refusal_of(const std::string& arguments) const {
+    const RunResult result = run({"sh", "-c", "cd " + folder_ + " && " + demo_ + " " + arguments});
+    EXPECT_EQ(result.exit_code, kRefused) << result.output;
+    return result.output;
+  }
+
+  std::string demo_ = repository_file("modules/demo.sh");
+  std::string folder_ = temporary_folder("demo");
+};
+
+TEST_F(Demo, RefusesWrongArguments) {
+  const std::string usage = "; call it as modules/demo.sh [FOLDER_OR_LOG [CALIBRATION]]\n";
+  EXPECT_EQ(refusal_of("--help"), "demo: --help: there are no options" + usage);
+  EXPECT_EQ(refusal_of("a b c"), "demo: c: one argument too many" + usage);
+}
+
+TEST_F(Demo, RefusesARecordingThatItCannotPlayBeforeItBuilds) {
+  const std::string recording = folder_ + "/recording";
+  EXPECT_EQ(refusal_of("recording"), "demo: " + recording + ": no such folder or log\n");
+  std::filesystem::create_directory(recording);
+  EXPECT_EQ(refusal_of("recording"), "demo: " + recording +
+                                         "/calibration.yml: no such calibration; give it as second "
+                                         "argument\n");
+  std::ofstream(folder_ + "/c.yml") << "of this folder";
+  EXPECT_EQ(refusal_of("recording c.yml"),
+            "demo: " + recording +
+                ": holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images\n");
+}
+
+}  // namespace
+}  // namespace limbcast::test
