@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::run;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The largest exposure that `systemd-analyze security` may find, of 100.
 constexpr const char* kLargestExposure = "25";
@@ -107,6 +108,19 @@ TEST_F(Units, ReadTheSettingsOfTheRobotOrOfTheirSensor) {
               HasSubstr("\nExecStart=limbcast-segmenter --config /etc/limbcast/%i.conf\n"));
   // A restart does not mend wrong settings.
   EXPECT_THAT(text_of("limbcast-segmenter.service"), HasSubstr("\nRestartPreventExitStatus=2\n"));
+}
+
+TEST_F(Units, TryACameraAgainUntilItIsThere) {
+  constexpr int kTriesWithinLimit = 10, kLimit_s = 60;
+  for (const char* unit : {"limbcast-stereo-camera.service", "limbcast-stereo-camera@.service",
+                           "limbcast-depth-camera.service", "limbcast-depth-camera@.service"}) {
+    const std::string text = text_of(unit);
+    // An absent camera is wrong input.
+    EXPECT_THAT(text, Not(HasSubstr("RestartPreventExitStatus"))) << unit;
+    std::smatch delay_s;
+    ASSERT_TRUE(std::regex_search(text, delay_s, std::regex("\nRestartSec=([0-9]+)\n"))) << unit;
+    EXPECT_GT(kTriesWithinLimit * std::stoi(delay_s[1]), kLimit_s) << unit << " gives up";
+  }
 }
 
 /// What the shell of limbcast-route@DEVICE.service runs.
