@@ -49,6 +49,7 @@ TEST_F(Packages, HoldProgramsWithUnitsSettingsManualsAndCompletion) {
   // help2man makes the manuals; without it they are left out.
   if (fs::exists(std::string(LIMBCAST_BUILD_DIR) + "/share/man/man1/limbcast-segmenter.1")) {
     EXPECT_THAT(contents, HasSubstr("./usr/share/man/man1/limbcast-segmenter.1\n"));
+    EXPECT_THAT(contents, HasSubstr("./usr/share/man/man1/limbcast-spy.1\n"));
   }
   EXPECT_THAT(contents, Not(HasSubstr("/usr/include")));
 }

@@ -51,6 +51,12 @@ class RealLog : public ::testing::Test {
 
 std::string RealLog::log_;
 
+TEST(SpyScript, ExplainsItself) {
+  const auto outcome = test::run({test::repository_file("modules/spy/limbcast-spy"), "--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("Usage: limbcast-spy [--lcm-url=URL]"));
+}
+
 TEST_F(RealLog, EveryTypeIsDecodedByLcmSpy) {
   std::vector<LogEvent> events = replay::events_of(log_);
   const std::string all = test::temporary_folder("types") + "/all.log";
