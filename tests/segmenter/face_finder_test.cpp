@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "modules/segmenter/segmenter.hpp"
-#include "modules/simulate/body_surface.hpp"
 #include "modules/simulate/render.hpp"
 #include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 #include "tests/segmenter/turned_cloud.hpp"
+#include "tests/support/lone_person.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::segmenter {
@@ -146,24 +146,14 @@ class SimulatedFaces : public ::testing::Test {
 
  private:
   static simulate::Scenario somebody(int seed, double yaw_rad) {
-    simulate::Rng rng(seed);
-    simulate::Person person;
-    person.body = simulate::draw_body(rng);
-    person.body.clothes.hair = simulate::Hair::kShort;
-    person.body.clothes.hat = simulate::Hat::kNone;
-    for (simulate::ArmPose& arm : person.posture.arms)
-      arm.upper = arm.fore = -Eigen::Vector3d::UnitY();
-    person.place = {0.0, 2.0, yaw_rad};
-    Eigen::Isometry3d sensor_from_world = Eigen::Isometry3d::Identity();
-    sensor_from_world.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal();
-    sensor_from_world.translation().y() = 1.5;
-    person.skeleton = simulate::transformed(
-        simulate::make_skeleton(person.body, person.posture, person.place), sensor_from_world);
-    simulate::Scenario scenario;
+    test::LonePerson person;
+    person.yaw_rad = yaw_rad;
+    person.arms = -Eigen::Vector3d::UnitY();
+    person.distance_m = 2.0;
+    person.sensor_height_m = 1.5;
+    person.seed = static_cast<std::uint64_t>(seed);
+    simulate::Scenario scenario = test::scenario_of(person);
     scenario.light = Eigen::Vector3f(0.3F, -0.5F, -0.8F).normalized();
-    scenario.world.surfaces.push_back(
-        simulate::make_body_surface(person.body, person.posture, person.skeleton, 1));
-    scenario.persons.push_back(person);
     return scenario;
   }
 

@@ -3,13 +3,16 @@
 
 #include <opencv2/core.hpp>
 
-#include "modules/simulate/body_surface.hpp"
 #include "modules/simulate/render.hpp"
 #include "modules/simulate/simulator.hpp"
 #include "modules/simulate/truth.hpp"
+#include "tests/support/lone_person.hpp"
 
 namespace limbcast::simulate {
 namespace {
+
+using test::LonePerson;
+using test::scenario_of;
 
 SimulatorParams small_params(SetKind set, SensorKind sensor) {
   SimulatorParams params;
@@ -22,27 +25,6 @@ SimulatorParams small_params(SetKind set, SensorKind sensor) {
 bool same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() &&
          (a.empty() || cv::norm(a, b, cv::NORM_INF) == 0.0);
-}
-
-/// A person at 3 m, alone, arms along `arms` (outward, up, forward).
-Scenario lone_person(double yaw_rad, const Eigen::Vector3d& arms = Eigen::Vector3d::UnitX()) {
-  Scenario scenario;
-  Person person;
-  Rng rng(11);
-  person.body = draw_body(rng);
-  person.body.clothes.hair = Hair::kShort;
-  for (ArmPose& arm : person.posture.arms) arm.upper = arm.fore = arms;
-  person.place = {0.0, 3.0, yaw_rad};
-  Eigen::Isometry3d sensor_from_world = Eigen::Isometry3d::Identity();
-  sensor_from_world.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal();
-  sensor_from_world.translation().y() = 1.2;
-  person.skeleton =
-      transformed(make_skeleton(person.body, person.posture, person.place), sensor_from_world);
-  person.surface = 0;
-  scenario.world.surfaces.push_back(
-      make_body_surface(person.body, person.posture, person.skeleton, 1));
-  scenario.persons.push_back(person);
-  return scenario;
 }
 
 const PinholeCamera kWide{640, 480, 300.0, 300.0, 319.5, 239.5};
@@ -104,15 +86,14 @@ TEST(Scenario, AStreetHasNoCeiling) {
 }
 
 TEST(Visibility, ShowsAllJointsOfSomebodyWithRaisedArms) {
-  const Scenario scenario = lone_person(0.0);
+  const Scenario scenario = scenario_of(LonePerson{});
   const Visibility seen = visibility_of(scenario, scenario.persons[0], kWide);
   for (int j = 0; j < kJointCount; ++j) EXPECT_TRUE(seen.joints[j]) << kJointNames[j];
 }
 
 TEST(Visibility, HidesTheFarArmOfSomebodySeenFromTheSide) {
-  const Scenario scenario =
-
-      lone_person(1.5708, {0.2, -1.0, 0.0});  // turned to the image's right: the own right is near
+  // Turned to the image's right: the own right is near.
+  const Scenario scenario = scenario_of(LonePerson{1.5708, {0.2, -1.0, 0.0}});
   const Visibility seen = visibility_of(scenario, scenario.persons[0], kWide);
 
   EXPECT_TRUE(seen.joints[index(Joint::kWristRight)]);
@@ -121,7 +102,7 @@ TEST(Visibility, HidesTheFarArmOfSomebodySeenFromTheSide) {
 }
 
 TEST(Visibility, HidesEverythingBehindAWallAndOutsideTheImage) {
-  Scenario scenario = lone_person(0.0);
+  Scenario scenario = scenario_of(LonePerson{});
   PinholeCamera narrow = kWide;
   narrow.cx = -400.0;  // looks past the person
   Visibility seen = visibility_of(scenario, scenario.persons[0], narrow);
@@ -136,7 +117,7 @@ TEST(Visibility, HidesEverythingBehindAWallAndOutsideTheImage) {
 }
 
 TEST(Render, JointsLieBehindTheSkinAsInTheRenderedData) {
-  const Scenario scenario = lone_person(0.0);
+  const Scenario scenario = scenario_of(LonePerson{});
   const HitImage hits = look(scenario.world, kWide);
   const cv::Mat depth = depth_image(hits, kWide);
   const auto behind_skin_m = [&](Joint joint) {
