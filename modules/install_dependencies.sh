@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages_run=(
   build-essential cmake ninja-build ccache git ca-certificates pkg-config
-  liblcm-dev liblcm-bin libeigen3-dev libopencv-dev opencv-data libboost-program-options-dev
+  liblcm-dev liblcm-bin libeigen3-dev libopencv-dev libboost-program-options-dev
   nlohmann-json3-dev libzstd-dev libturbojpeg0-dev libtbb-dev libnanoflann-dev libxnnpack-dev libpthreadpool-dev libflatbuffers-dev libgomp1 qtbase5-dev
   iproute2 procps)
 packages_test=(

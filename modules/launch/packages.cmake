@@ -42,7 +42,7 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION
     "Programs for stereo and depth cameras, laser scanners, replay and viewing, and systemd units that start them.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "liblcm-bin, iproute2, opencv-data")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "liblcm-bin, iproute2")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS limbcast-java)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_CONTROL_EXTRA
     "${CMAKE_CURRENT_LIST_DIR}/packages/conffiles;${CMAKE_CURRENT_LIST_DIR}/packages/postinst")

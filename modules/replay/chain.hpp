@@ -65,8 +65,6 @@ class Chain {
   /// The work on a frame; to be called later, from any thread, without this object changing under
   /// it.
   std::function<FrameResult()> prepare(lcm_io::LogEvent event) const;
-  /// What the segmenter must do without; empty where it has all.
-  const std::string& segmenter_problem() const { return segmenter_.problem(); }
 
  private:
   using Reconstructor = std::shared_ptr<const reconstructor::StereoReconstructor>;

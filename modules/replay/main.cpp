@@ -65,7 +65,6 @@ void report(const ReplaySummary& summary, const std::string& in, double seconds)
   for (const std::string& sensor : summary.uncalibrated)
     log(LogLevel::kWarning, in + ": no calibration of stereo camera '" + sensor +
                                 "'; began with what was made from its images");
-  if (!summary.segmenter_problem.empty()) log(LogLevel::kWarning, summary.segmenter_problem);
   if (summary.damaged_bytes > 0)
     log(LogLevel::kWarning, in + ": is damaged, " + std::to_string(summary.damaged_bytes) +
                                 " bytes between messages hold none and were left out");

@@ -52,7 +52,6 @@ class Replay {
     while (!waiting_.empty() && !lcm_io::stop_requested()) write_oldest(workers, writer, progress);
     writer.close();
     summary_.interrupted = lcm_io::stop_requested();
-    summary_.segmenter_problem = chain_.segmenter_problem();
     summary_.torn_bytes = reader.torn_bytes();
     summary_.damaged_bytes = reader.damaged_bytes();
     return summary_;

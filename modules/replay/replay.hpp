@@ -27,7 +27,6 @@ struct ReplaySummary {
   bool interrupted = false;
   /// Stereo cameras whose images have no calibration, so that their clouds or segments were taken.
   std::vector<std::string> uncalibrated;
-  std::string segmenter_problem;  ///< what the segmenter had to do without
 };
 
 /// Called now and then with frames done, frames in all.

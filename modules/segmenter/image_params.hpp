@@ -6,36 +6,27 @@
 
 namespace limbcast::segmenter {
 
-/// Faces at the heads of people (face_finder.hpp). Chosen, and the hits counted, at the heads of
-/// bodies D1 to D3 of stereo_dev (with the right camera's images; centre off by 2 cm), of
-/// rgbd_pointing and rgbd_five_people: 319 that face the sensor within 60 degrees, 65 seen from
-/// behind.
+/// Faces at the heads of people (face_finder.hpp). Chosen on bodies D1 to D3 of stereo_dev and on
+/// simulated people (tests/accuracy/README.md).
 struct FaceParams {
-  /// Folder with haarcascade_frontalface_default.xml and haarcascade_profileface.xml, set when
-  /// limbcast is built; empty: faces are not looked for.
-  std::string cascades = LIMBCAST_FACE_CASCADES;
-  /// What is searched: a square around the head's centre, with room for its error [m].
-  float patch_m = 0.34F;
-  /// Its side when searched [px]: at 64 the depth camera's faces are seen at half of the heads, at
-  /// 96 at 7 of 10, and the search takes twice as long.
-  int patch_px = 96;
-  /// Smallest side in the cloud's own pixels: hits get rare below. 6.8 m for VGA.
-  float min_patch_px = 26.0F;
-  /// A detector's square of a face, as a share of the patch.
-  float min_face_share = 0.36F, max_face_share = 0.70F;
-  /// From one size to the next. 1.1 finds no more and takes 15 % longer.
-  double size_step = 1.15;
-  /// Hits that are some, and enough: at facing heads 0 hits 11 %, fewer than some 9 %, fewer than
-  /// enough 13 %, more 67 %; from behind 96, 4, 0 and 0 %.
-  int some_hits = 3, enough_hits = 6;
-  /// Log odds that a person faces the sensor after no, few, some and enough hits: from these shares
-  /// if hair, masks, hats or hands hide three faces in ten, and a back looks like a face once in 50
-  /// (some) or 100 (enough).
-  float no_hit_log_odds = -0.8F, few_hits_log_odds = 0.4F, some_hits_log_odds = 1.7F,
-        enough_hits_log_odds = 3.5F;
-  /// Log odds of the side a face looks to where `some_hits` more of its profile are found: 4 to 10
-  /// of those are right for one that is wrong.
-  float profile_log_odds = 1.8F;
+  bool enabled = true;
+  /// What the network sees: a square around the head's centre [m]. With 0.5 and 1 it tells front
+  /// from back as well, with 0.4 worse.
+  float patch_m = 0.75F;
+  /// Smallest side in the cloud's own pixels: faces get too small to see below. 6.8 m for VGA.
+  float min_patch_px = 58.0F;
+  /// A face's middle may be this far from the head's [m]: half a head, and the head's error.
+  float reach_m = 0.13F;
+  /// From this score on a face is seen; at the others neither is known.
+  float least_score = 0.0F;
+  /// Log odds that a person faces the sensor: by score, and within which they stay. Of 1575
+  /// simulated people who face the sensor or turn their backs 1.5 fronts for a back have a score of
+  /// 0 to 0.5, 10 one of 0.5 to 1, 50 one over 1; hair, masks, hats and hands hide the others' faces.
+  float facing_log_odds_at_zero = -0.5F, facing_log_odds_per_score = 3.8F;
+  float least_facing_log_odds = -0.8F, most_facing_log_odds = 3.5F;
+  /// Log odds of the side a face looks to, by how far the nose is from the middle of the ears [m],
+  /// and at most: heads turn against the trunk.
+  float side_log_odds_per_m = 30.0F, most_side_log_odds = 1.8F;
 };
 
 /// How the surface of somebody without colours is drawn for the network of poses

@@ -1,4 +1,3 @@
-#include "common/config/log.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/segmenter/stage.hpp"
 
@@ -17,10 +16,6 @@ void run(int argc, const char* const* argv) {
   // Loading the networks takes longest: a module that says it is there hears what is sent.
   const Stage stage(options);
   lcm_io::Module module("segmenter", parser.common());
-  if (!stage.problem().empty()) {
-    module.set_note(stage.problem());
-    config::log(config::LogLevel::kWarning, stage.problem());
-  }
   module.subscribe_frames<point_cloud_t>(
       options.point_cloud_channel, [&](const point_cloud_t& message) {
         module.publish_frame(options.segments_channel, stage.process(message));

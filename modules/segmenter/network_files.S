@@ -1,5 +1,9 @@
-// The files of the networks of poses, by the labels that blaze_pose.cpp and move_net.cpp know.
+// The networks' files, by the labels that blaze_face.cpp, blaze_pose.cpp and move_net.cpp know.
     .section .rodata
+    .global limbcast_blaze_face
+    .balign 16
+limbcast_blaze_face:
+    .incbin LIMBCAST_BLAZE_FACE
     .global limbcast_blaze_pose
     .balign 16
 limbcast_blaze_pose:

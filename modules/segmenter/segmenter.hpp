@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
@@ -30,9 +29,6 @@ class Segmenter {
   /// Cuts out the people whose heads' centres are told (sensor frame): one valid segment for each
   /// head that the cloud shows, grown as `growing = refined` does. Finds and rejects nobody.
   Segments cut_out_people(const Cloud& cloud, const std::vector<Eigen::Vector3f>& heads_m) const;
-
-  /// What the segmenter must do without, and how to mend it; empty where it has all.
-  const std::string& problem() const { return faces_.problem(); }
 
  private:
   std::vector<HeadCandidate> find_seeds(const Scene& scene) const;

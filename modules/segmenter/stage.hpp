@@ -26,8 +26,6 @@ class Stage {
   explicit Stage(const StageOptions& options) : segmenter_(to_params(options.algorithm)) {}
 
   segments_t process(const point_cloud_t& cloud) const;
-  /// What the segmenter must do without, and how to mend it; empty where it has all.
-  const std::string& problem() const { return segmenter_.problem(); }
 
  private:
   Segmenter segmenter_;

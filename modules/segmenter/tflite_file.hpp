@@ -16,6 +16,7 @@ enum class TfliteKind : std::int32_t {
   kDequantize = 6,
   kSigmoid = 14,
   kMaxPool = 17,
+  kRelu = 19,
   kReshape = 22,
   kResizeBilinear = 23,
   kPad = 34

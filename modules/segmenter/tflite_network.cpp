@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -85,6 +86,10 @@ class Subgraph {
       case TfliteKind::kSigmoid:
         return check(xnn_define_sigmoid(subgraph_, input(step, 0), value(step.output), kNoFlags),
                      "take the sigmoid in");
+      case TfliteKind::kRelu:
+        return check(xnn_define_clamp(subgraph_, 0.0F, std::numeric_limits<float>::infinity(),
+                                      input(step, 0), value(step.output), kNoFlags),
+                     "cut off in");
       case TfliteKind::kReshape:
         return add_reshape(step);
       case TfliteKind::kResizeBilinear:

@@ -124,14 +124,6 @@ TEST_F(ChainTest, DropsAForeignMessageOnEveryChannelAndGoesOn) {
   EXPECT_TRUE(wait_for([this] { return !poses_.empty(); }));
 }
 
-TEST_F(ChainTest, TellsInTheStatusWhyNoFacesAreLookedFor) {
-  ASSERT_TRUE(wait_until_up());
-  EXPECT_EQ(status_["segmenter"].note, "");
-  start_module("segmenter", {"--face-cascades", "/nowhere"});
-  EXPECT_TRUE(wait_for(
-      [this] { return status_["segmenter"].note.find("opencv-data") != std::string::npos; }));
-}
-
 TEST_F(ChainTest, EndsCleanlyOnSigterm) {
   ASSERT_TRUE(wait_until_up());
   for (auto& [name, process] : modules_) {

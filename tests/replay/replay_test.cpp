@@ -113,14 +113,6 @@ TEST_F(ReplayProgram, TakesChannelsAndParametersFromTheConfigurationFile) {
   EXPECT_THAT(on_channel(out, "BODY_POSES"), SizeIs(0));
 }
 
-TEST_F(ReplayProgram, SaysThatItLooksForNoFacesWithoutCascades) {
-  const std::string in = write("in.log", two_frames_);
-  const auto without = replay({in, path("out.log"), "--segmenter.face-cascades", "/nowhere"});
-  EXPECT_EQ(without.exit_code, 0) << without.output;
-  EXPECT_THAT(without.output, HasSubstr("install the package opencv-data"));
-  EXPECT_THAT(replay({in, path("out.log")}).output, Not(HasSubstr("opencv-data")));
-}
-
 TEST_F(ReplayProgram, TakesACalibrationThatComesLate) {
   std::vector<LogEvent> late = two_frames_;
   ASSERT_EQ(late.front().channel, "STEREO_CALIBRATION");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "modules/segmenter/blaze_face.hpp"
 #include "modules/segmenter/blaze_pose.hpp"
 #include "modules/segmenter/move_net.hpp"
 
@@ -67,6 +68,12 @@ TEST(TfliteNetwork, ConvolvesEachChannelAlone) {
   const auto bias = network.add_tensor({2}, {0.0F, 0.5F});
   network.add_step(TfliteKind::kDepthwiseConvolution, {0, filter, bias}, {1, 1, 1, 2});
   EXPECT_THAT(network.run({1.0F, 10.0F, 2.0F, 20.0F}, 2), ElementsAre(7.0F, 100.5F));
+}
+
+TEST(TfliteNetwork, CutsOffWhatIsNegative) {
+  SmallNetwork network({1, 1, 3, 1});
+  network.add_step(TfliteKind::kRelu, {0}, {1, 1, 3, 1});
+  EXPECT_THAT(network.run({-2.0F, 0.5F, 7.0F}, 3), ElementsAre(0.0F, 0.5F, 7.0F));
 }
 
 TEST(TfliteNetwork, PadsTheOddPixelAfterAsTensorFlowDoes) {
@@ -158,6 +165,13 @@ TEST(TfliteFile, HoldsBlazePose) {
   const TfliteTensor& filter = file.tensors.at(first->inputs.at(1));
   EXPECT_THAT(filter.shape, ElementsAre(24, 3, 3, 3));
   EXPECT_EQ(filter.numbers.size(), 24U * 27U) << "16 bits in the file";
+}
+
+TEST(TfliteFile, HoldsBlazeFace) {
+  const TfliteFile& file = BlazeFace::file();
+  EXPECT_THAT(file.tensors.at(file.input).shape, ElementsAre(1, 192, 192, 3));
+  EXPECT_THAT(file.tensors.at(file.outputs.at(0)).shape, ElementsAre(1, 48 * 48, 16));
+  EXPECT_THAT(file.tensors.at(file.outputs.at(1)).shape, ElementsAre(1, 48 * 48, 1));
 }
 
 TEST(TfliteFile, HoldsMoveNet) {
