@@ -73,6 +73,29 @@ TEST_F(Confidence, OfADirectionIsAlikeForTheSideAndTheFront) {
   EXPECT_EQ(of_direction(), wide);
 }
 
+TEST_F(Confidence, OfTheFacingFallsWhereTheOtherWayCostsLittleMore) {
+  const Real before = facing_confidence(evidence_);
+  evidence_.flip_gap = 0.5;
+  EXPECT_LT(facing_confidence(evidence_), before);
+}
+
+TEST_F(Confidence, OfTheFacingRisesWithAFaceThatAgreesAndFallsWithOneThatDoesNot) {
+  evidence_.has_colors = evidence_.face_seen = true;
+  const Real of_no_side = facing_confidence(evidence_);
+  evidence_.face_agreement = 2.0;
+  EXPECT_GT(facing_confidence(evidence_), of_no_side);
+  evidence_.face_agreement = -2.0;
+  EXPECT_LT(facing_confidence(evidence_), of_no_side);
+}
+
+TEST_F(Confidence, OfTheFacingFallsWhereTheImageTellsTheSidesOtherwise) {
+  evidence_.has_colors = true;
+  for (ImageEvidence& image : evidence_.images) image.sides_agreement = 1.0;
+  const Real before = facing_confidence(evidence_);
+  for (ImageEvidence& image : evidence_.images) image.sides_agreement = -1.0;
+  EXPECT_LT(facing_confidence(evidence_), before);
+}
+
 TEST_F(Confidence, OfPairedJointsAloneFallsWhereTheBodyMayFaceTheOtherWay) {
   const Real shoulder = joint_confidence(evidence_, kShoulder),
              pelvis = joint_confidence(evidence_, kPelvis);
@@ -145,6 +168,11 @@ TEST_F(ToldDirections, IncludeTheOtherArmWhereTheMoreRaisedOneIsSurelyWrong) {
                        /*bend_rad=*/0.1,  /*sigma_rad=*/0.5,
                        /*forwards=*/-0.7, /*outwards=*/-0.7};
   EXPECT_EQ(sides(), std::vector<Side>{Side::kRight});
+}
+
+TEST_F(ToldDirections, AreNoneOfABodyThatMayFaceTheOtherWay) {
+  evidence_.flip_gap = 0.0;
+  EXPECT_TRUE(sides().empty());
 }
 
 /// A body fitted to what a sensor sees of somebody who stands 2.5 m away.

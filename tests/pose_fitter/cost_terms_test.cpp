@@ -64,6 +64,35 @@ TEST(RefinedCost, MindsATrunkTurnedAgainstTheFace) {
   EXPECT_NEAR(cost_at(-90.0), 6.0, 1e-6);
 }
 
+TEST(RefinedCost, TellsHowFarAFaceAgreesWithAFront) {
+  auto observation = refined::observe(testing::seen(testing::standing_body(2.5, 0.0)),
+                                      testing::stamp(), RefinedParams{});
+  ASSERT_TRUE(observation);
+  const auto agreement_at = [&](double yaw_deg) {
+    return face_agreement(testing::standing_body(2.5, yaw_deg * kDegree).front(), *observation);
+  };
+  EXPECT_EQ(agreement_at(0.0), 0.0);
+  // To which side it looks tells nothing: heads turn.
+  observation->face = {2.0F, 1.5F};
+  EXPECT_NEAR(agreement_at(0.0), 2.0, 1e-6);
+  EXPECT_NEAR(agreement_at(90.0), 0.0, 1e-6);
+  EXPECT_NEAR(agreement_at(180.0), -2.0, 1e-6);
+  observation->face = {-2.0F, 0.0F};
+  EXPECT_EQ(agreement_at(180.0), 0.0);
+}
+
+TEST(RefinedCost, TellsWhoIsSeenFromTheSide) {
+  const auto observation = refined::observe(testing::seen(testing::standing_body(2.5, 0.0)),
+                                            testing::stamp(), RefinedParams{});
+  ASSERT_TRUE(observation);
+  const auto sideways_at = [&](double yaw_deg) {
+    return sideways(testing::standing_body(2.5, yaw_deg * kDegree).front(), *observation);
+  };
+  for (const double front_or_back : {0.0, 180.0})
+    EXPECT_NEAR(sideways_at(front_or_back), 0.0, 1e-6);
+  for (const double side : {-90.0, 90.0}) EXPECT_NEAR(sideways_at(side), 1.0, 1e-6);
+}
+
 TEST(RefinedCost, MindsNoTrunkWhoseSurfaceAloneWasLookedAt) {
   const RefinedParams params;
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));

@@ -103,6 +103,17 @@ TEST_F(ImageTerm, CostsAFixedSumWhereTheImageTakesLeftForRight) {
   EXPECT_NEAR(cost(body_), params_.image_swap_cost, 1e-9);
 }
 
+TEST_F(ImageTerm, TellsHowClearlyTheSidesAgree) {
+  EXPECT_NEAR(evidence_of(body_).sides_agreement, 1.0, 1e-9);
+  take_left_for_right();
+  EXPECT_NEAR(evidence_of(body_).sides_agreement, -1.0, 1e-9);
+}
+
+TEST_F(ImageTerm, TellsNothingOfTheSidesWithoutColors) {
+  observation_.looks.front().swap_cost = 0.0;
+  EXPECT_EQ(evidence_of(body_).sides_agreement, 0.0);
+}
+
 TEST_F(ImageTerm, MarksTheShoulderOfAHangingArmHigher) {
   BodyState raised = body_;
   raised.points[kElbow] = raised.points[kShoulder] + 0.3 * raised.rotation.col(1);

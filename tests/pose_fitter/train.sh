@@ -26,10 +26,7 @@ simulate c_dense_pointing pointing laser 120 709 --max-distance-m 5 "${dense[@]}
 simulate c_laser_pointing pointing laser 120 710 --max-distance-m 5
 simulate c_colorless_pointing pointing depth 80 711 --color=false
 
-recorded=()
-for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done
-"$bin/limbcast-train-confidences" modules/pose_fitter/refined/confidence_coefficients.inc "${folders[@]}" "${recorded[@]}"
-
+with_truth=("${folders[@]}")
 # People and what may be taken for them, before every sensor. None of these was seen by the segmenter's networks.
 folders=()
 simulate p_nohuman nohuman stereo 200 801
@@ -78,5 +75,13 @@ simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9
 simulate p_laser_nohuman4 nohuman laser 200 871
 simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"
 simulate p_nohuman5 nohuman stereo 200 873
+
+recorded=()
+for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done
+# Of the second sets those before dense sensors: few rings tell neither front from back nor an arm.
+for set in pointing multi multi2 general depth_pointing depth_multi colorless_pointing colorless_multi dense_pointing laser_pointing; do
+  with_truth+=("$simulated/p_$set")
+done
+"$bin/limbcast-train-confidences" modules/pose_fitter/refined/confidence_coefficients.inc "${with_truth[@]}" "${recorded[@]}"
 "$bin/limbcast-train-persons" modules/pose_fitter/refined/person_trees.inc "${folders[@]}" "${recorded[@]}" \
   "$data/stereo_dev/nohuman"

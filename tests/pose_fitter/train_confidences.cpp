@@ -34,7 +34,7 @@ const evaluate::EvaluationParams kRules;
 
 /// What came of one or more frames.
 struct Outcomes {
-  std::vector<Outcome> joints, directions;
+  std::vector<Outcome> joints, facings, directions;
   std::vector<double> direction_errors_in_spreads;  ///< of right directions
 };
 
@@ -45,6 +45,7 @@ void append(std::vector<T>&& from, std::vector<T>& to) {
 
 void append(Outcomes&& from, Outcomes& to) {
   append(std::move(from.joints), to.joints);
+  append(std::move(from.facings), to.facings);
   append(std::move(from.directions), to.directions);
   append(std::move(from.direction_errors_in_spreads), to.direction_errors_in_spreads);
 }
@@ -75,6 +76,26 @@ void add_joints(const FittedBody& fitted, const BodyPose& pose, const BodyPose& 
   }
 }
 
+/// Which way somebody faces who stands upright, not of unit length; nothing where it is not known.
+std::optional<Eigen::Vector3f> front_of(const BodyPose& pose, const Eigen::Vector3f& down) {
+  Eigen::Vector3f leftwards = Eigen::Vector3f::Zero();
+  for (const Joint left : {Joint::kShoulderLeft, Joint::kHipLeft}) {
+    const JointEstimate& from = pose[on_side(left, Side::kRight)];
+    const JointEstimate& to = pose[left];
+    if (!from.valid || !to.valid) return std::nullopt;
+    leftwards += to.position_m - from.position_m;
+  }
+  return down.cross(leftwards);
+}
+
+/// Whether a body faces the way that it does in truth.
+std::optional<bool> faces_right(const BodyPose& pose, const BodyPose& truth,
+                                const Eigen::Vector3f& down) {
+  const auto front = front_of(pose, down), true_front = front_of(truth, down);
+  if (!front || !true_front) return std::nullopt;
+  return front->dot(*true_front) > 0.0F;
+}
+
 /// Only arms that point by the rule are asked how sure they are.
 void add_directions(const FittedBody& fitted, const BodyPose& pose, const BodyPose& truth,
                     const Stamp& stamp, Outcomes& outcomes) {
@@ -99,7 +120,12 @@ Outcomes ask(const FittedFrame& frame) {
     if (!frame.matching.report_of_truth[i]) continue;
     const std::size_t k = *frame.matching.report_of_truth[i];
     add_joints(frame.bodies[k], frame.poses[k], frame.truth[i], outcomes);
-    add_directions(frame.bodies[k], frame.poses[k], frame.truth[i], frame.stamp, outcomes);
+    const std::optional<bool> facing =
+        faces_right(frame.poses[k], frame.truth[i], frame.stamp.gravity.down);
+    if (!facing) continue;
+    outcomes.facings.push_back({refined::facing_features(frame.bodies[k].evidence), *facing});
+    if (*facing)
+      add_directions(frame.bodies[k], frame.poses[k], frame.truth[i], frame.stamp, outcomes);
   }
   return outcomes;
 }
@@ -161,6 +187,8 @@ int main(int argc, char** argv) {
   file << "// Written by limbcast-train-confidences, which train.sh runs; not to be edited.\n"
           "// clang-format off\n";
   write_coefficients("kJointCoefficients", fit("joints", fitted_to.joints, checked_on.joints),
+                     file);
+  write_coefficients("kFacingCoefficients", fit("facings", fitted_to.facings, checked_on.facings),
                      file);
   write_coefficients("kDirectionCoefficients",
                      fit("directions", fitted_to.directions, checked_on.directions), file);

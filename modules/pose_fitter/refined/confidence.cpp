@@ -74,8 +74,17 @@ JointFeatures joint_features(const Evidence& evidence, int joint) {
       is_told(evidence) ? 1.0 : 0.0;
   for (const ImageEvidence& image : evidence.images) {
     list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint],
-        image.sides_swapped && !on_axis(joint) ? 1.0 : 0.0;
+        on_axis(joint) ? 0.0 : image.sides_agreement;
   }
+  return features;
+}
+
+FacingFeatures facing_features(const Evidence& evidence) {
+  FacingFeatures features;
+  auto list = features << 1.0;
+  list, strength(evidence.flip_gap), evidence.has_colors ? 1.0 : 0.0, evidence.face_agreement,
+      evidence.face_seen ? 1.0 : 0.0, evidence.sideways, odd_posture(evidence);
+  for (const ImageEvidence& image : evidence.images) list, image.sides_agreement;
   return features;
 }
 
@@ -91,7 +100,7 @@ DirectionFeatures direction_features(const BodyState& body, int side, const Evid
       std::max(0.0, -arm.outwards), is_told(evidence) ? 1.0 : 0.0;
   for (const ImageEvidence& image : evidence.images) {
     list, image_visibility(image, kShoulder + side, kHip, 2),
-        image_disagreement(image, kShoulder + side, kHip, 2), image.sides_swapped ? 1.0 : 0.0;
+        image_disagreement(image, kShoulder + side, kHip, 2);
   }
   return features;
 }
@@ -125,6 +134,10 @@ PersonFeatures person_features(const FittedBody& fitted) {
 
 Real joint_confidence(const Evidence& evidence, int joint) {
   return probability(joint_features(evidence, joint), kJointCoefficients);
+}
+
+Real facing_confidence(const Evidence& evidence) {
+  return probability(facing_features(evidence), kFacingCoefficients);
 }
 
 Real direction_confidence(const BodyState& body, int side, const Evidence& evidence) {

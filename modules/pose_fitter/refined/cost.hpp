@@ -62,6 +62,12 @@ void add_prior_terms(const BodyState& body, const Cones& cones, const Observatio
 /// front; no part of `evaluate`, as it chooses between bodies and turns none.
 Real front_cost(const BodyState& body, const Observation& observation, const RefinedParams& params);
 
+/// Log odds by which a face that was seen speaks for a trunk's front, or against it; 0 of none.
+Real face_agreement(const Vec3& front, const Observation& observation);
+
+/// How far a front points across the line of sight, 0 to 1: 1 of somebody seen from the side.
+Real sideways(const Vec3& front, const Observation& observation);
+
 /// Looks for the nearest among the cones of `parts` and what `fixed` holds (may be null).
 void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,
                    const NearestCones* fixed, NearestCones& nearest);

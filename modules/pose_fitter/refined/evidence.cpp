@@ -109,11 +109,11 @@ Real flip_gap(const std::vector<PoseCandidate>& candidates, const CostOf& cost_o
   return gap;
 }
 
-/// Rivals are other bodies, and other arms of the best one.
+/// Rivals are other bodies that face the same way, and other arms of the best one.
 Real arm_gap(const std::vector<PoseCandidate>& candidates, int side, PoseSearch& search) {
   const PoseCandidate& best = candidates.front();
   const auto is_rival = [&](const BodyState& body) {
-    return faces_the_other_way(body, best.body) ||
+    return !faces_the_other_way(body, best.body) &&
            arm_axis(body, side).dot(arm_axis(best.body, side)) < kOtherArmCosine;
   };
   Real gap = kNoRival;
@@ -154,6 +154,11 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
   evidence.shape_flip_gap = flip_gap(candidates, [&](const PoseCandidate& pose) {
     return pose.cost - front_cost(pose.body, observation, solver.params());
   });
+  const Vec3 front = body.front();
+  evidence.face_agreement = face_agreement(front, observation);
+  evidence.has_colors = observation.has_colors;
+  evidence.face_seen = observation.face.facing_log_odds > 0.0F;
+  evidence.sideways = sideways(front, observation);
   for (int side = 0; side < 2; ++side) {
     ArmEvidence& arm = evidence.arms[side];
     arm.bend_rad = angle(body.points[kElbow + side] - body.points[kShoulder + side],

@@ -22,17 +22,20 @@ View view_of(const Observation& observation) {
   return {away, away.cross(up)};
 }
 
+/// 1 where a trunk is turned to a direction, -1 where it is turned away from it.
+Real agreement(Real cosine) { return std::clamp(cosine / kTurnedCosine, -1.0, 1.0); }
+
 /// What odds against a direction cost: nothing where they agree.
 Real disagreement(Real log_odds, Real cosine) {
-  const Real agreement = std::clamp(cosine / kTurnedCosine, -1.0, 1.0);
-  return 0.5 * (std::abs(log_odds) - log_odds * agreement);
+  return 0.5 * (std::abs(log_odds) - log_odds * agreement(cosine));
 }
 
+/// That none was seen tells little, as hair, masks, hats and hands hide faces: counted too, it
+/// mended no body and cost a right direction (tests/accuracy).
+Real seen_facing_log_odds(const FaceEvidence& face) { return std::max(0.0F, face.facing_log_odds); }
+
 Real face_disagreement(const Vec3& front, const View& view, const FaceEvidence& face) {
-  // That none was seen tells little, as hair, masks, hats and hands hide faces: counted too, it
-  // mended no body and cost a right direction (tests/accuracy).
-  const Real facing_log_odds = std::max(0.0F, face.facing_log_odds);
-  return disagreement(facing_log_odds, -front.dot(view.away)) +
+  return disagreement(seen_facing_log_odds(face), -front.dot(view.away)) +
          disagreement(face.looks_right_log_odds, front.dot(view.right));
 }
 
@@ -67,6 +70,14 @@ Real image_disagreement(const Vec3& front, const View& view, const Observation& 
 }
 
 }  // namespace
+
+Real face_agreement(const Vec3& front, const Observation& observation) {
+  return seen_facing_log_odds(observation.face) * agreement(-front.dot(view_of(observation).away));
+}
+
+Real sideways(const Vec3& front, const Observation& observation) {
+  return std::abs(front.dot(view_of(observation).right));
+}
 
 Real front_cost(const BodyState& body, const Observation& observation,
                 const RefinedParams& params) {

@@ -1,6 +1,7 @@
 #include "modules/pose_fitter/refined/image_term.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 
 namespace limbcast::pose_fitter::refined {
@@ -51,6 +52,10 @@ Real share_of_limit(const SeenJoint& seen, const Vec3& point, Real limit_m) {
   return ratio / (1.0 + ratio);
 }
 
+/// Beyond this difference of cost the sides are as clear as they get: two joints far off their
+/// rays.
+constexpr Real kClearSidesGap = 9.0;
+
 /// What joints cost with the sides as the image tells them, and with left and right exchanged.
 struct SideCosts {
   Real as_told = 0.0, exchanged = 0.0;
@@ -74,7 +79,12 @@ ImageEvidence evidence_of(const BodyState& body, const ImageLook& look,
   ImageEvidence evidence;
   evidence.told = true;
   evidence.person_score = look.person_score;
-  evidence.sides_swapped = takes_sides_otherwise(body, look, kAllParts, params);
+  const SideCosts costs = side_costs(body, look, kAllParts, params);
+  evidence.sides_swapped = costs.exchanged < costs.as_told;
+  if (look.swap_cost > 0.0) {
+    const Real gap = (costs.exchanged - look.swap_cost - costs.as_told) / look.weight;
+    evidence.sides_agreement = std::clamp(gap / kClearSidesGap, -1.0, 1.0);
+  }
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SeenJoint& seen = look.joints[evidence.sides_swapped ? mirrored(joint) : joint];
     evidence.visibility[joint] = seen.visibility;
