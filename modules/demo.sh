@@ -37,6 +37,10 @@ trap cleanup EXIT
 trap 'cleanup; exit 130' INT TERM
 
 [ -e "$input" ] || refuse "$input: no such folder or log"
+# What an earlier demo wrote goes; nothing else does.
+if [ -e "$output" ] && [ ! -e "$output/processes" ] && [ -n "$(ls -A "$output")" ]; then
+  refuse "$output: holds what no demo wrote; set DEMO_OUTPUT to a folder that is empty or not there"
+fi
 
 # What feeds the chain: the camera process of this kind of recording.
 if [ -d "$input" ]; then

@@ -13,8 +13,9 @@ constexpr int kRefused = 2;
 /// What modules/demo.sh says of arguments that it refuses, called from another folder.
 class Demo : public ::testing::Test {
  protected:
-  std::string refusal_of(const std::string& arguments) const {
-    const RunResult result = run({"sh", "-c", "cd " + folder_ + " && " + demo_ + " " + arguments});
+  std::string refusal_of(const std::string& arguments, const std::string& settings = "") const {
+    const RunResult result =
+        run({"sh", "-c", "cd " + folder_ + " && " + settings + " " + demo_ + " " + arguments});
     EXPECT_EQ(result.exit_code, kRefused) << result.output;
     return result.output;
   }
@@ -40,6 +41,17 @@ TEST_F(Demo, RefusesARecordingThatItCannotPlayBeforeItBuilds) {
   EXPECT_EQ(refusal_of("recording c.yml"),
             "demo: " + recording +
                 ": holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images\n");
+}
+
+TEST_F(Demo, DeletesNothingThatNoDemoWrote) {
+  const std::string mine = folder_ + "/mine";
+  std::filesystem::create_directory(mine);
+  std::ofstream(mine + "/letter.txt") << "keep";
+  EXPECT_EQ(refusal_of("", "DEMO_OUTPUT=mine"),
+            "demo: " + mine +
+                ": holds what no demo wrote; set DEMO_OUTPUT to a folder that is empty or not "
+                "there\n");
+  EXPECT_TRUE(std::filesystem::exists(mine + "/letter.txt"));
 }
 
 }  // namespace

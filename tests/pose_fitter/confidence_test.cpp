@@ -211,7 +211,7 @@ TEST(PersonConfidence, IsHighOfSomebodyWhoStandsInTheOpen) {
 }
 
 TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
-  FittedBody fitted = doubtful_person(0.7, 0.9);
+  FittedBody fitted = doubtful_person(0.76, 0.9);
   fitted.observation.has_colors = true;
   EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise.constant_m = 0.06F;
@@ -219,7 +219,7 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
-  FittedBody fitted = doubtful_person(0.7, 0.75);
+  FittedBody fitted = doubtful_person(0.76, 0.8);
   fitted.observation.noise.quadratic_per_m = 0.002F;
   EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise.quadratic_per_m = 0.0F;
@@ -227,7 +227,7 @@ TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
 }
 
 TEST(PersonConfidence, MayBeLowerInCompany) {
-  const auto doubtful = assess(doubtful_person(0.5, 0.7));
+  const auto doubtful = assess(doubtful_person(0.5, 0.75));
   ASSERT_TRUE(doubtful);
   EXPECT_TRUE(doubtful->needs_company);
   EXPECT_FALSE(assess(doubtful_person(0.2, 0.5)));
