@@ -22,10 +22,10 @@ constexpr int kMarksOfAFace = 8;
 /// The places that are told with one cell.
 class Face {
  public:
-  Face(const float* marks, int cell)
-      : marks_(marks + 2 * kMarksOfAFace * cell),
-        middle_of_cell_px_(kFaceCell_px * (cell % kFaceCells + 0.5F),
-                           kFaceCell_px * (cell / kFaceCells + 0.5F)) {}
+  Face(const float* marks, int cell) : marks_(marks + 2 * kMarksOfAFace * cell) {
+    const Eigen::Vector2i column_and_row(cell % kFaceCells, cell / kFaceCells);
+    middle_of_cell_px_ = kFaceCell_px * (column_and_row.cast<float>().array() + 0.5F);
+  }
 
   Eigen::Vector2f px(Mark mark) const {
     const float* from_cell_px = marks_ + 2 * static_cast<int>(mark);
