@@ -71,6 +71,10 @@ Bus::Bus(const std::string& url) : lcm_(url_within_limits(url)), membership_(eff
         "lcm-url '" + effective_url(url) +
         "': LCM cannot start; check the URL and the multicast route (ip route add "
         "224.0.0.0/4 dev lo)");
+  // LCM itself would go on, and end the program where it waits for a message.
+  if (lcm_.getFileno() < 0)
+    throw config::UsageError("lcm-url '" + effective_url(url) +
+                             "': nobody answers there; start lcm-tcpq-server on that host");
 }
 
 Bus::~Bus() {

@@ -111,6 +111,12 @@ TEST(Bus, PassesOnWhatAHandlerThrows) {
 
 TEST(Bus, SaysThatAUrlIsUnusable) { EXPECT_THROW(Bus("nonsense://"), config::UsageError); }
 
+TEST(Bus, SaysThatNoServerAnswers) {
+  // Nobody serves LCM on the port of the "discard" service.
+  const std::string error = test::error_of<config::UsageError>([] { Bus("tcpq://127.0.0.1:9"); });
+  EXPECT_NE(error.find("lcm-tcpq-server"), std::string::npos) << error;
+}
+
 TEST(Bus, SaysInOneLineThatTheKernelGivesASmallerBufferAndWorks) {
   ::testing::internal::CaptureStderr();
   Bus bus(test::private_lcm_url() + "&recv_buf_size=999000000");
