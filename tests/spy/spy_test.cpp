@@ -200,8 +200,11 @@ std::pair<int, int> limbs_in_place(
       if (!person[limb.from].valid || !person[limb.to].valid) continue;
       const Eigen::Vector3f middle =
           axes * (person[limb.from].position_m + person[limb.to].position_m) / 2.0F;
-      const cv::Rect around(pixel_of(middle) - cv::Point(1, 1), cv::Size(3, 3));
+      // A window that is not drawn yet has no views: places lie anywhere.
+      const cv::Rect around = cv::Rect(pixel_of(middle) - cv::Point(1, 1), cv::Size(3, 3)) &
+                              cv::Rect({}, picture.size());
       ++all;
+      if (around.empty()) continue;
       in_place += cv::countNonZero(mask_of(picture(around), limb.color)) > 0 ? 1 : 0;
     }
   }
