@@ -33,13 +33,17 @@ inline std::string write_stereo_calibration(const std::string& folder, double ba
   return path;
 }
 
+/// Grey level of the first frame's left picture, and by how much each frame is lighter than the one
+/// before it.
+inline constexpr int kFirstLevel = 40, kLevelStep = 5;
+
 /// Pairs frame_0, frame_1 ... of one grey level each, taken every `period_us` from 1000 s on.
 inline void write_pairs(const std::string& folder, int frames, std::int64_t period_us) {
   std::string times = "name,utime\n";
   for (int i = 0; i < frames; ++i) {
     const std::string name = "frame_" + std::to_string(i);
     const std::string stem = std::string(folder).append("/").append(name);
-    const int level = 40 + 5 * i;
+    const int level = kFirstLevel + kLevelStep * i;
     test::write_bytes(stem + "_left.jpg",
                       encode_jpeg(test::grey_picture(kWidth, kHeight, level), 95));
     test::write_bytes(stem + "_right.jpg",
