@@ -29,14 +29,15 @@ struct Marks {
   Real shoulder_drop_m;
 };
 
-/// Medians of D1 to D3 and of simulated people, which agree to 1 cm, as do D4 and D5.
+/// Medians of D1 to D3 and of simulated people, which agree to 1 cm, as do D4 and D5; heights of
+/// shoulders and wrists by what directions of D1 to D3 leave across the image.
 const Marks& marks_of(ImageNetwork network) {
   static const Marks blaze_pose = {
-      {Vec3(0.0, -0.033, 0.012), Vec3(-0.009, 0.010, 0.003), Vec3::Zero(), Vec3::Zero(),
+      {Vec3(0.0, -0.033, 0.012), Vec3(-0.009, 0.004, 0.003), Vec3::Zero(), Vec3(0.0, 0.004, 0.0),
        Vec3(-0.006, -0.023, 0.030), Vec3::Zero(), Vec3(-0.005, 0.022, 0.006)},
       0.011};
   static const Marks move_net = {
-      {Vec3(0.0, -0.033, 0.012), Vec3(-0.005, 0.018, 0.003), Vec3::Zero(), Vec3::Zero(),
+      {Vec3(0.0, -0.033, 0.012), Vec3(-0.005, 0.011, 0.003), Vec3::Zero(), Vec3(0.0, 0.004, 0.0),
        Vec3(-0.002, 0.010, 0.028), Vec3(0.0, -0.010, 0.004), Vec3(0.0, 0.010, 0.005)},
       0.021};
   return network == ImageNetwork::kBlazePose ? blaze_pose : move_net;

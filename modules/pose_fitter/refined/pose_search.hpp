@@ -41,6 +41,8 @@ class PoseSearch {
   bool try_flip_with_other_arms(PoseCandidate& pose);
   bool try_legs(PoseCandidate& pose);
   bool try_arm(PoseCandidate& pose, int side);
+  /// Takes a bent arm for a straight and raised one where that costs little more.
+  void straighten_arm(PoseCandidate& pose, int side);
   /// The best `count` arms of `side` after fitting the arm alone to what the `explained` parts
   /// leave.
   std::vector<BodyState> fitted_arms(const BodyState& body, int side, unsigned explained,
