@@ -70,10 +70,15 @@ std::optional<Eigen::Vector3f> ImageOpinion::head_of_body(const Scene& scene,
   const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(body.head.center_m);
   const RangeImage view = view_towards(scene, head_m);
   const auto pose = look(scene, {labels, kThis, head_m}, view);
-  if (!pose || pose->person_score < params_.whole_bodies.min_score) return std::nullopt;
+  if (!pose) return std::nullopt;
   const float depth_m = view.frame_from_image.col(2).dot(head_m);
   const Eigen::Vector3f marked_m = view.frame_from_image * marked_head(*pose, view.camera, depth_m);
-  if ((marked_m - head_m).norm() > params_.whole_bodies.max_head_distance_m) return std::nullopt;
+  const WholeBodyParams& params = params_.whole_bodies;
+  const float distance_m = (marked_m - head_m).norm();
+  const bool on_top = has_image(scene.cloud) && distance_m < params.on_top_m;
+  if (pose->person_score < (on_top ? params.min_score_on_top : params.min_score) ||
+      distance_m > params.max_head_distance_m)
+    return std::nullopt;
   return marked_m;
 }
 
