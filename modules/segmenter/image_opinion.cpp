@@ -15,8 +15,6 @@ PoseNetworkParams second_of(const Params& params) {
   return second;
 }
 
-bool has_image(const Cloud& cloud) { return cloud.organized() && !cloud.colors.empty(); }
-
 /// Where the network marks a head whose depth is known, in the camera's optical frame [m].
 Eigen::Vector3f marked_head(const ImagePose& pose, const PinholeCamera& camera, float depth_m) {
   const auto seen = std::find_if(pose.joints.begin(), pose.joints.end(),

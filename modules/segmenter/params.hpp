@@ -159,6 +159,20 @@ struct WholeBodyParams {
   float head_odds = 3.0F;
 };
 
+/// Arms that the colour image shows and that growing or cutting left out (lost_arms.hpp). On
+/// simulated people who point half of the forearms without a segment get theirs, and one to three
+/// more of a hundred arms are right; limits twice as wide change nothing.
+struct LostArmParams {
+  /// Surfaces of nobody part where growing might go on: an arm from the wall.
+  SurfaceParams surface{0.05F, 0.006F};
+  /// Least visibility of elbow and wrist.
+  float min_visibility = 0.5F;
+  /// A forearm and an upper arm with sleeves [m^2], and its larger level side [m].
+  float max_area_m2 = 0.12F, max_extent_m = 0.8F;
+  /// A hand is no farther from the head's surface [m]: an arm, and the shoulder beside the head.
+  float max_head_distance_m = 1.1F;
+};
+
 /// The four filters of section III-B.2. The defaults are those of `growing = refined`: loose, since
 /// its classifiers judge too, and its clusters may be a head and a shoulder behind somebody else.
 struct FilterParams {
@@ -215,6 +229,7 @@ struct Params {
   ClassifierParams classifier;
   HiddenHeadParams hidden_heads;
   WholeBodyParams whole_bodies;
+  LostArmParams lost_arms;
   FilterParams filters;
   FilterParams paper_filters = kPaperFilters;
   SkinParams skin;

@@ -26,6 +26,8 @@ Scene look_at(const Cloud& cloud, const Params& params) {
   return scene;
 }
 
+bool has_image(const Cloud& cloud) { return cloud.organized() && !cloud.colors.empty(); }
+
 std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
                                           const std::vector<std::int16_t>& labels,
                                           const JointGrowingParams& params) {

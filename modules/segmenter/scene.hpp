@@ -20,6 +20,9 @@ struct Scene {
 /// sight. The scene keeps no copy of the cloud.
 Scene look_at(const Cloud& cloud, const Params& params);
 
+/// Whether the cloud is a camera's coloured image.
+bool has_image(const Cloud& cloud);
+
 /// Labels of the whole cloud from those of the scene's lattice.
 std::vector<std::int16_t> labels_of_cloud(const Scene& scene,
                                           const std::vector<std::int16_t>& labels,

@@ -9,6 +9,7 @@
 #include "modules/segmenter/head_shape.hpp"
 #include "modules/segmenter/hidden_heads.hpp"
 #include "modules/segmenter/joint_growing.hpp"
+#include "modules/segmenter/lost_arms.hpp"
 #include "modules/segmenter/paper_search.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
@@ -194,8 +195,26 @@ std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,
   return labels;
 }
 
-void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
+void Segmenter::see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
+                           Segments& result) const {
+  const bool image = has_image(scene.cloud);
+  const RangeImage none;
+  for (std::size_t k = 0; k < result.segments.size(); ++k) {
+    Segment& segment = result.segments[k];
+    if (!segment.valid() || (!image && !segment.range_image)) continue;
+    const LabelledPerson person{labels, static_cast<std::int16_t>(k),
+                                behind_surface(segment.seed_m)};
+    segment.image_poses = image_.see(scene, person, image ? none : *segment.range_image);
+  }
+}
+
+void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
                               Segments& result) const {
+  // The image tells of arms that are in no segment yet; without one the segments are the picture.
+  const bool seen_before = has_image(scene.cloud);
+  if (seen_before) see_people(scene, labels, result);
+  if (seen_before && params_.growing != Growing::kPaper)
+    labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
   const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
                                 params_.range_image_margin_m};
   const Eigen::Vector3f down = scene.lattice.frame.down();
@@ -204,18 +223,16 @@ void Segmenter::fill_segments(const Scene& scene, const std::vector<std::int16_t
     segment.id = static_cast<std::int32_t>(k);
     if (!segment.valid()) continue;
     const auto label = static_cast<std::int16_t>(k);
-    const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
     // A head that is out of sight shows no face: that tells nothing.
     if (segment.seed_kind != SeedKind::kBody)
-      segment.face = faces_.look(scene.cloud, head_m, scene.lattice.up);
+      segment.face = faces_.look(scene.cloud, behind_surface(segment.seed_m), scene.lattice.up);
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);
     else
       fill_from_scan(source, label, down, params_.scan_range_image.focal_px,
                      params_.scan_range_image.gap_px, segment);
-    if (segment.range_image)
-      segment.image_poses = image_.see(scene, {labels, label, head_m}, *segment.range_image);
   }
+  if (!seen_before) see_people(scene, labels, result);
 }
 
 Segments segment(const Cloud& cloud, const Params& params) {

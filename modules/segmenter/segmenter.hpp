@@ -42,8 +42,10 @@ class Segmenter {
                                           Segments& result) const;
   /// Heads of bodies that nobody has and that the network of poses takes for people.
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
-  void fill_segments(const Scene& scene, const std::vector<std::int16_t>& labels,
-                     Segments& result) const;
+  /// What the networks see of each person: in a camera's image, or in `range_image`.
+  void see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
+                  Segments& result) const;
+  void fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Segments& result) const;
 
   Params params_;
   SkinColor skin_;
