@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "modules/segmenter/filters.hpp"
 #include "modules/segmenter/surfaces.hpp"
 
 namespace limbcast::segmenter {
@@ -83,7 +85,83 @@ class LostArms {
   bool any_ = false;
 };
 
+/// Points of the cloud in each segment.
+std::vector<int> count_points(const std::vector<std::int16_t>& labels, std::size_t segments) {
+  std::vector<int> counts(segments, 0);
+  for (const std::int16_t label : labels) {
+    if (label >= 0) ++counts[static_cast<std::size_t>(label)];
+  }
+  return counts;
+}
+
+std::vector<std::int16_t> relabelled(std::vector<std::int16_t> labels, std::int16_t from,
+                                     std::int16_t to) {
+  std::replace(labels.begin(), labels.end(), from, to);
+  return labels;
+}
+
+/// Whether the network sees the head where the person's segment began, and not the arm's.
+bool marks_head(const ImagePose& pose, const PinholeCamera& camera, const Eigen::Vector3f& head_m,
+                float max_error_m) {
+  const ImageJoint* head = find_visible(pose, Joint::kHead, 0.0F);
+  return head != nullptr &&
+         (camera.back_project(head->px.x(), head->px.y(), head_m.z()) - head_m).norm() <=
+             max_error_m;
+}
+
+bool marks_arm_in(const ImagePose& pose, const Cloud& cloud,
+                  const std::vector<std::int16_t>& labels, std::int16_t label,
+                  float min_visibility) {
+  const std::array<Joint, 4> kArms = {Joint::kElbowLeft, Joint::kElbowRight, Joint::kWristLeft,
+                                      Joint::kWristRight};
+  return std::any_of(kArms.begin(), kArms.end(), [&](Joint joint) {
+    const ImageJoint* seen = find_visible(pose, joint, min_visibility);
+    if (seen == nullptr) return false;
+    const auto u = static_cast<int>(std::lround(seen->px.x()));
+    const auto v = static_cast<int>(std::lround(seen->px.y()));
+    if (u < 0 || v < 0 || u >= cloud.width || v >= cloud.height) return false;
+    return labels[static_cast<std::size_t>(v) * cloud.width + u] == label;
+  });
+}
+
 }  // namespace
+
+void join_arms_taken_for_heads(const Scene& scene, const PersonLook& look,
+                               const LostArmParams& params, std::vector<Segment>& segments,
+                               std::vector<std::int16_t>& labels) {
+  const PinholeCamera& camera = *scene.cloud.camera;
+  const std::vector<int> points = count_points(labels, segments.size());
+  const auto area_m2 = [&](std::size_t k) {
+    const auto side_m = segments[k].seed_m.z() / static_cast<float>(camera.fx);
+    return static_cast<float>(points[k]) * side_m * side_m;
+  };
+  const auto is_arm_of = [&](std::size_t arm, std::size_t person) {
+    const Eigen::Vector3f& head_m = segments[person].seed_m;
+    if (arm == person || !segments[person].valid() ||
+        area_m2(person) < params.min_person_areas * area_m2(arm) ||
+        (head_m - segments[arm].seed_m).norm() > params.max_seeds_apart_m)
+      return false;
+    const auto label = static_cast<std::int16_t>(arm);
+    const auto pose = look(relabelled(labels, label, kNobody), static_cast<std::int16_t>(person));
+    return pose && marks_head(*pose, camera, head_m, params.max_head_error_m) &&
+           marks_arm_in(*pose, scene.cloud, labels, label, params.min_visibility);
+  };
+  for (std::size_t arm = 0; arm < segments.size(); ++arm) {
+    // A body whose head is out of sight was asked for by itself.
+    if (!segments[arm].valid() || segments[arm].seed_kind == SeedKind::kBody ||
+        area_m2(arm) > params.max_taken_area_m2)
+      continue;
+    for (std::size_t person = 0; person < segments.size(); ++person) {
+      if (!is_arm_of(arm, person)) continue;
+      labels = relabelled(std::move(labels), static_cast<std::int16_t>(arm),
+                          static_cast<std::int16_t>(person));
+      segments[arm].rejected_by = SegmentFilter::kSamePerson;
+      segments[arm].filter_figure = 1.0F;
+      segments[arm].filter_limit = kSamePersonShare;
+      break;
+    }
+  }
+}
 
 std::vector<std::int16_t> add_lost_arms(const Scene& scene, const std::vector<Segment>& segments,
                                         std::vector<std::int16_t> labels, const Params& params) {

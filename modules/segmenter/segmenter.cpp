@@ -195,6 +195,18 @@ std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,
   return labels;
 }
 
+void Segmenter::join_arms(const Scene& scene, std::vector<std::int16_t>& labels,
+                          Segments& result) const {
+  const auto look = [&](const std::vector<std::int16_t>& told,
+                        std::int16_t person) -> std::optional<ImagePose> {
+    const Segment& segment = result.segments[static_cast<std::size_t>(person)];
+    auto poses = image_.see(scene, {told, person, behind_surface(segment.seed_m)}, RangeImage());
+    if (poses.empty()) return std::nullopt;
+    return std::move(poses.back());
+  };
+  join_arms_taken_for_heads(scene, look, params_.lost_arms, result.segments, labels);
+}
+
 void Segmenter::see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                            Segments& result) const {
   const bool image = has_image(scene.cloud);
@@ -212,9 +224,10 @@ void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labe
                               Segments& result) const {
   // The image tells of arms that are in no segment yet; without one the segments are the picture.
   const bool seen_before = has_image(scene.cloud);
+  const bool mends_arms = seen_before && params_.growing != Growing::kPaper;
+  if (mends_arms) join_arms(scene, labels, result);
   if (seen_before) see_people(scene, labels, result);
-  if (seen_before && params_.growing != Growing::kPaper)
-    labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
+  if (mends_arms) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
   const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
                                 params_.range_image_margin_m};
   const Eigen::Vector3f down = scene.lattice.frame.down();

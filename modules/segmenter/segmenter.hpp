@@ -23,7 +23,8 @@ class Segmenter {
   explicit Segmenter(const Params& params = {});
 
   /// One segment for each seed that was looked at: first the people, then the rejected, without
-  /// points and with the filter that ended them.
+  /// points and with the filter that ended them. Arms taken for people are among the first, and
+  /// rejected.
   Segments segment(const Cloud& cloud) const;
 
   /// Cuts out the people whose heads' centres are told (sensor frame): one valid segment for each
@@ -42,6 +43,8 @@ class Segmenter {
                                           Segments& result) const;
   /// Heads of bodies that nobody has and that the network of poses takes for people.
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
+  /// Joins segments that are arms of somebody else's to theirs, as the image shows them.
+  void join_arms(const Scene& scene, std::vector<std::int16_t>& labels, Segments& result) const;
   /// What the networks see of each person: in a camera's image, or in `range_image`.
   void see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                   Segments& result) const;

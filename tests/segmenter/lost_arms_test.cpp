@@ -115,5 +115,74 @@ TEST_F(LostArm, IsNoneOfARejectedCandidate) {
   EXPECT_EQ(count(kOwner), kTrunkPx.area());
 }
 
+/// The same arm, which has a segment of its own.
+class ArmTakenForAHead : public LostArm {
+ protected:
+  static constexpr std::int16_t kArm = 1;
+
+  ArmTakenForAHead() {
+    set_labels(kArmPx, kArm);
+    Segment arm;
+    arm.seed_m = cloud_.camera->back_project(215.0F, 94.0F, kArm_m);
+    segments_.push_back(arm);
+    seen_ = segments_[0].image_poses[0];
+    seen_->joints.push_back({Joint::kHead, {160.0F, 65.0F}, 1.0F});
+  }
+
+  bool is_joined() {
+    const PersonLook look = [&](const std::vector<std::int16_t>& labels, std::int16_t person) {
+      ++looks_;
+      EXPECT_EQ(person, kOwner);
+      EXPECT_EQ(std::count(labels.begin(), labels.end(), kArm), 0) << "it would be painted over";
+      return seen_;
+    };
+    join_arms_taken_for_heads(look_at(cloud_, params_), look, params_.lost_arms, segments_,
+                              labels_);
+    const bool rejected = segments_[kArm].rejected_by == SegmentFilter::kSamePerson;
+    EXPECT_EQ(segments_[kArm].valid(), !rejected);
+    EXPECT_EQ(std::count(labels_.begin(), labels_.end(), kOwner),
+              kTrunkPx.area() + (rejected ? kArmPx.area() : 0));
+    return rejected;
+  }
+
+  std::optional<ImagePose> seen_;
+  int looks_ = 0;
+};
+
+TEST_F(ArmTakenForAHead, IsJoinedToThePersonWhoseArmTheImageMarksThere) {
+  EXPECT_TRUE(is_joined());
+  EXPECT_EQ(looks_, 1) << "the trunk is too large to be an arm";
+}
+
+TEST_F(ArmTakenForAHead, IsLeftWhereTheImageMarksNoArm) {
+  for (ImageJoint& joint : seen_->joints) joint.px.y() += 30.0F;
+  seen_->joints.back().px.y() -= 30.0F;
+  EXPECT_FALSE(is_joined());
+}
+
+TEST_F(ArmTakenForAHead, IsLeftWhereTheImageMarksTheHeadElsewhere) {
+  seen_->joints.back().px.x() += 40.0F;
+  EXPECT_FALSE(is_joined());
+}
+
+TEST_F(ArmTakenForAHead, IsLeftWhereTheImageShowsNobody) {
+  seen_.reset();
+  EXPECT_FALSE(is_joined());
+}
+
+TEST_F(ArmTakenForAHead, IsNotAskedForWhereTheSegmentIsAsLargeAsAPerson) {
+  const cv::Rect person(186, 60, 60, 30);
+  draw(person, kArm_m);
+  set_labels(person, kArm);
+  EXPECT_FALSE(is_joined());
+  EXPECT_EQ(looks_, 0);
+}
+
+TEST_F(ArmTakenForAHead, IsNotAskedForWhereTheTwoAreApart) {
+  segments_[kArm].seed_m.x() += params_.lost_arms.max_seeds_apart_m;
+  EXPECT_FALSE(is_joined());
+  EXPECT_EQ(looks_, 0);
+}
+
 }  // namespace
 }  // namespace limbcast::segmenter
