@@ -95,8 +95,8 @@ TEST_F(LostArm, IsNoneOfSomebodyElse) {
   EXPECT_EQ(count(kOther), kArmPx.area());
 }
 
-TEST_F(LostArm, IsNoWall) {
-  draw(kArmPx, kBehindArm_m);
+TEST_F(LostArm, IsNoLargerSurface) {
+  draw(cv::Rect(186, 60, 80, 80), kArm_m);
   EXPECT_EQ(count(kOwner), kTrunkPx.area());
 }
 
