@@ -26,8 +26,8 @@ void sort_by_cost(std::vector<PoseCandidate>& poses) {
 
 /// Arms that are raised point, mostly, and are straight: one bent at the elbow by more than the
 /// first of these that can be straight to the second, and raised against the trunk by the third,
-/// costs so much more. Of 13 simulated arms whose cost differs by less 12 are straight, of 26 others
-/// 24 are bent (tests/accuracy/README.md).
+/// costs so much more. Of 12 arms whose cost differs by less 11 are straight, of 18 that differ by
+/// twice as much 17 are bent (tests/accuracy/README.md).
 constexpr Real kBentElbowDeg = 35.0, kStraightElbowDeg = 30.0, kRaisedArmDeg = 45.0;
 constexpr Real kBentArmCost = 7.0;
 
@@ -269,9 +269,9 @@ void PoseSearch::straighten_arm(PoseCandidate& pose, int side) {
   std::optional<PoseCandidate> best;
   for (const Vec3& along : {Vec3(upper + fore), upper, fore}) {
     PoseCandidate straight{0.0, with_straight_arm(pose.body, side, along.normalized())};
-    straight.cost = solver_.minimize(straight.body, final_stage(), kFinalIterations,
-                                     pose.cost + kBentArmCost) +
-                    front_cost(straight.body, observation_, params_);
+    straight.cost =
+        solver_.minimize(straight.body, final_stage(), kFinalIterations, pose.cost + kBentArmCost) +
+        front_cost(straight.body, observation_, params_);
     if (elbow_bend_deg(straight.body, side) > kStraightElbowDeg ||
         arm_raise_deg(straight.body, side) < kRaisedArmDeg)
       continue;
