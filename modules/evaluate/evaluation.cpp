@@ -6,15 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "common/angle.hpp"
 #include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
 
 namespace limbcast::evaluate {
 namespace {
-
-double angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian<double>;
-}
 
 bool is_visible(const JointEstimate& truth) { return truth.valid && truth.confidence > 0.5F; }
 

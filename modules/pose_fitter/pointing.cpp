@@ -1,20 +1,14 @@
 #include "modules/pose_fitter/pointing.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <optional>
+
+#include "common/angle.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-
-double angle_deg(const Vector3f& a, const Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegPerRad;
-}
 
 struct RatedPointing {
   Pointing pointing;

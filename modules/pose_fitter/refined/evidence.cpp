@@ -7,6 +7,8 @@
 #include <memory>
 #include <numeric>
 
+#include "common/angle.hpp"
+
 namespace limbcast::pose_fitter::refined {
 namespace {
 
@@ -21,10 +23,6 @@ constexpr Real kHiddenM = 0.08;
 /// An arm whose axis differs by more is another arm: cosine of 20 degrees.
 constexpr Real kOtherArmCosine = 0.94;
 constexpr Real kNoRival = 1e3;
-
-Real angle(const Vec3& a, const Vec3& b) {
-  return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0));
-}
 
 Real worst_sigma(const Mat3& covariance) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance, Eigen::EigenvaluesOnly);
@@ -161,8 +159,8 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
   evidence.sideways = sideways(front, observation);
   for (int side = 0; side < 2; ++side) {
     ArmEvidence& arm = evidence.arms[side];
-    arm.bend_rad = angle(body.points[kElbow + side] - body.points[kShoulder + side],
-                         body.points[kWrist + side] - body.points[kElbow + side]);
+    arm.bend_rad = angle_rad(body.points[kElbow + side] - body.points[kShoulder + side],
+                             body.points[kWrist + side] - body.points[kElbow + side]);
     arm.sigma_rad = axis_sigma(body, covariance, side);
     const Vec3 axis = arm_axis(body, side);
     arm.forwards = axis.dot(body.front());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/angle.hpp"
 #include "modules/pose_fitter/refined/image_start.hpp"
 
 namespace limbcast::pose_fitter::refined {
@@ -63,12 +64,6 @@ void copy_arm(const BodyState& from, int side, BodyState& to) {
 
 bool alike(const BodyState& a, const BodyState& b) {
   return (a.front() - b.front()).norm() < 0.5 && (a.points[kKnee] - b.points[kKnee]).norm() < 0.15;
-}
-
-/// Angle between two directions [deg].
-Real angle_deg(const Vec3& a, const Vec3& b) {
-  constexpr Real kDegPerRad = 180.0 / M_PI;
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegPerRad;
 }
 
 Vec3 upper_arm(const BodyState& body, int side) {
