@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/angle.hpp"
 #include "modules/pose_fitter/refined/evidence.hpp"
 #include "modules/pose_fitter/refined/pose_search.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
@@ -20,11 +21,6 @@ constexpr float kJointToleranceM = 0.06F;
 
 float error_m(const BodyPose& pose, Joint joint, const BodyState& body) {
   return (pose[joint].position_m - body.points[index(joint)].cast<float>()).norm();
-}
-
-float angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3d& b) {
-  return std::acos(std::min(1.0F, a.dot(b.normalized().cast<float>()))) /
-         static_cast<float>(kDegree);
 }
 
 std::optional<BodyPose> fit(const Segment& segment, const Stamp& stamp = testing::stamp(),
@@ -63,7 +59,7 @@ TEST(RefinedFitter, TellsWhereAndWithWhichArmAPersonPoints) {
     ASSERT_TRUE(pose);
     ASSERT_EQ(pose->pointing.size(), 1U);
     EXPECT_EQ(pose->pointing[0].side, side == 0 ? Side::kLeft : Side::kRight);
-    EXPECT_LT(angle_deg(pose->pointing[0].direction, direction), 4.0F);
+    EXPECT_LT(angle_deg(pose->pointing[0].direction, direction.cast<float>()), 4.0);
     EXPECT_GT(pose->pointing[0].sigma_rad, 0.0F);
   }
 }

@@ -1,20 +1,15 @@
 #include "tests/replay/pose_differences.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "common/angle.hpp"
 #include "common/formatted.hpp"
-#include "common/units.hpp"
 
 namespace limbcast::replay {
 namespace {
-
-float angle_deg(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegreesPerRadian<float>;
-}
 
 class Comparison {
  public:
@@ -60,10 +55,10 @@ class Comparison {
     } else if (!after.empty()) {
       if (before.front().side != after.front().side) {
         add("points with the other arm");
-      } else if (const float turned_deg =
+      } else if (const double turned_deg =
                      angle_deg(before.front().direction, after.front().direction);
                  turned_deg > tolerance_.direction_deg) {
-        add(formatted("direction turned by %.1f degrees", static_cast<double>(turned_deg)));
+        add(formatted("direction turned by %.1f degrees", turned_deg));
       }
     }
   }

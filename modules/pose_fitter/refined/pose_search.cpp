@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "common/angle.hpp"
 #include "modules/pose_fitter/refined/image_start.hpp"
+#include "modules/pose_fitter/refined/straight_arm.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -24,13 +24,6 @@ void sort_by_cost(std::vector<PoseCandidate>& poses) {
   std::stable_sort(poses.begin(), poses.end(),
                    [](const PoseCandidate& a, const PoseCandidate& b) { return a.cost < b.cost; });
 }
-
-/// Arms that are raised point, mostly, and are straight: one bent at the elbow by more than the
-/// first of these that can be straight to the second, and raised against the trunk by the third,
-/// costs so much more. Of 12 arms whose cost differs by less 11 are straight, of 18 that differ by
-/// twice as much 17 are bent (tests/accuracy/README.md).
-constexpr Real kBentElbowDeg = 35.0, kStraightElbowDeg = 30.0, kRaisedArmDeg = 45.0;
-constexpr Real kBentArmCost = 7.0;
 
 /// Height of the head's centre over the floor, in statures.
 constexpr Real kStandingHeadHeight = 0.950, kSittingHeadHeight = 0.724;
@@ -64,29 +57,6 @@ void copy_arm(const BodyState& from, int side, BodyState& to) {
 
 bool alike(const BodyState& a, const BodyState& b) {
   return (a.front() - b.front()).norm() < 0.5 && (a.points[kKnee] - b.points[kKnee]).norm() < 0.15;
-}
-
-Vec3 upper_arm(const BodyState& body, int side) {
-  return body.points[kElbow + side] - body.points[kShoulder + side];
-}
-Vec3 forearm(const BodyState& body, int side) {
-  return body.points[kWrist + side] - body.points[kElbow + side];
-}
-
-Real elbow_bend_deg(const BodyState& body, int side) {
-  return angle_deg(upper_arm(body, side), forearm(body, side));
-}
-
-/// Angle between the line shoulder-wrist and the trunk [deg].
-Real arm_raise_deg(const BodyState& body, int side) {
-  return angle_deg(body.points[kWrist + side] - body.points[kShoulder + side],
-                   body.points[kPelvis] - body.points[kNeck]);
-}
-
-BodyState with_straight_arm(BodyState body, int side, const Vec3& along) {
-  const Vec3 elbow = body.points[kShoulder + side] + upper_arm(body, side).norm() * along;
-  set_arm(body, side, {0.0, elbow, elbow + forearm(body, side).norm() * along});
-  return body;
 }
 
 bool faces_away(const BodyState& a, const BodyState& b) { return a.front().dot(b.front()) < -0.5; }
@@ -259,21 +229,16 @@ bool PoseSearch::try_arm(PoseCandidate& pose, int side) {
 }
 
 void PoseSearch::straighten_arm(PoseCandidate& pose, int side) {
-  if (elbow_bend_deg(pose.body, side) < kBentElbowDeg) return;
-  const Vec3 upper = upper_arm(pose.body, side), fore = forearm(pose.body, side);
   std::optional<PoseCandidate> best;
-  for (const Vec3& along : {Vec3(upper + fore), upper, fore}) {
-    PoseCandidate straight{0.0, with_straight_arm(pose.body, side, along.normalized())};
-    straight.cost =
-        solver_.minimize(straight.body, final_stage(), kFinalIterations, pose.cost + kBentArmCost) +
-        front_cost(straight.body, observation_, params_);
-    if (elbow_bend_deg(straight.body, side) > kStraightElbowDeg ||
-        arm_raise_deg(straight.body, side) < kRaisedArmDeg)
-      continue;
-    if (!best || straight.cost < best->cost) best = std::move(straight);
+  for (BodyState& body : with_straight_arm(pose.body, side)) {
+    const Real cost =
+        solver_.minimize(body, final_stage(), kFinalIterations, pose.cost + kBentArmCost) +
+        front_cost(body, observation_, params_);
+    if (is_straight_and_raised(body, side) && (!best || cost < best->cost))
+      best = {cost, std::move(body)};
   }
   if (best && best->cost < pose.cost + kBentArmCost)
-    pose = {std::min(pose.cost, best->cost), best->body};
+    pose = {std::min(pose.cost, best->cost), std::move(best->body)};
 }
 
 void PoseSearch::move_limbs(PoseCandidate& pose) {
