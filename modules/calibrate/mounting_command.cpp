@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <string>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_writer.hpp"
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"
 #include "common/lcm_io/module.hpp"

@@ -5,7 +5,7 @@
 #include <limbcast/stereo_images_t.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 #include "common/camera/encoded_image.hpp"
 #include "common/config/log.hpp"
 #include "common/lcm_io/calibration_codec.hpp"

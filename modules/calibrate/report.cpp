@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "common/camera/calibration_io.hpp"
 #include "common/formatted.hpp"
 #include "common/units.hpp"
 #include "modules/calibrate/coverage.hpp"

@@ -1,7 +1,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_writer.hpp"
 #include "common/camera/picture_file.hpp"
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_writer.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"

@@ -17,7 +17,7 @@ struct FaceParams {
   float min_patch_px = 58.0F;
   /// A face's middle may be this far from the head's [m]: half a head, and the head's error.
   float reach_m = 0.13F;
-  /// From this score on a face is seen; at the others neither is known.
+  /// From this score on the face tells to which side it looks.
   float least_score = 0.0F;
   /// Log odds that a person faces the sensor: by score, and within which they stay. Of 1575
   /// simulated people who face the sensor or turn their backs 1.5 fronts for a back have a score of

@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_writer.hpp"
 #include "common/config/options.hpp"
 #include "modules/simulate/truth.hpp"
 

@@ -1,6 +1,6 @@
 #include <limbcast/stereo_images_t.hpp>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 #include "common/camera/encoded_image.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/image_codec.hpp"

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 #include "tests/calibrate/boards.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/piped_camera.hpp"

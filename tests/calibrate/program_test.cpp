@@ -12,7 +12,8 @@
 #include <opencv2/imgproc.hpp>
 #include <regex>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
+#include "common/camera/calibration_writer.hpp"
 #include "tests/calibrate/boards.hpp"
 #include "tests/common/run_program.hpp"
 

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 
 namespace limbcast::test {
 std::string stereo_dev_folder() { return std::string(LIMBCAST_DATA_DIR) + "/stereo_dev"; }

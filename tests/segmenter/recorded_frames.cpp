@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 #include "common/camera/recording.hpp"
 #include "common/cloud/ground_plane.hpp"
 

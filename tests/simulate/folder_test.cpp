@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 #include "common/camera/recording.hpp"
 #include "modules/simulate/frame_folder.hpp"
 #include "modules/simulate/options.hpp"

@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
 #include "common/camera/recording.hpp"
 
 namespace limbcast::stereo_camera {

@@ -17,20 +17,11 @@ namespace limbcast {
 /// sensor_height_m. Throws InputError: file, key, what was found, what to do.
 StereoCalibration read_stereo_calibration(const std::string& path);
 
-/// Writes a calibration as read_stereo_calibration reads it (OpenCV FileStorage YAML), with R1 R2
-/// P1 P2 Q where it has a rectification, and the mounting as far as it is known. Throws
-/// std::runtime_error where the file cannot be written.
-void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration);
-
 /// Reads a depth camera's calibration: image_width, image_height, camera_matrix,
 /// distortion_coefficients (OpenCV or ROS YAML), depth_scale (metres a unit, default 0.001), and
 /// optionally down, sensor_height_m. Where depth is not registered to colour: depth_image_width,
 /// depth_image_height, depth_camera_matrix, depth_distortion_coefficients, R, T.
 DepthCalibration read_depth_calibration(const std::string& path);
-
-/// Writes a calibration of registered depth as read_depth_calibration reads it. Throws
-/// std::runtime_error where the file cannot be written.
-void write_depth_calibration(const std::string& path, const DepthCalibration& calibration);
 
 /// Distance between the optical centres along the left camera's x axis [m].
 double baseline_m(const StereoCalibration& calibration);

@@ -1,4 +1,5 @@
-#include "common/camera/calibration_io.hpp"
+#include "common/camera/calibration_reader.hpp"
+#include "common/camera/calibration_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,94 @@
+#include "common/camera/calibration_writer.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "common/camera/opencv_conversion.hpp"
+
+namespace limbcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Collects the text of a YAML file.
+cv::FileStorage yaml_text() {
+  constexpr int kMode =
+      cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML;
+  return {".yml", kMode};
+}
+
+/// The file is there whole or, where the program or the disk fails, as it was before.
+void write_whole(const std::string& path, const std::string& text) {
+  const std::string unfinished = path + ".unfinished";
+  std::ofstream file(unfinished, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(unfinished, path, error);
+  if (file && !error) return;
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  throw std::runtime_error(path + ": cannot be written");
+}
+
+void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
+  file << "image_width" << camera.width << "image_height" << camera.height;
+}
+
+void write_lens(cv::FileStorage& file, const std::string& matrix_key,
+                const std::string& distortion_key, const LensCalibration& lens) {
+  // Other programs take a missing key for an error.
+  const std::vector<double> none(5, 0.0);
+  file << matrix_key << cv::Mat(camera_matrix(lens.camera));
+  file << distortion_key
+       << cv::Mat(lens.distortion.empty() ? none : lens.distortion, true).reshape(1, 1);
+}
+
+void write_mounting(cv::FileStorage& file, const Mounting& mounting) {
+  if (mounting.down) file << "down" << cv::Mat(to_cv(*mounting.down));
+  if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
+}
+
+/// Q takes (u, v, disparity, 1) to a point, as cv::reprojectImageTo3D wants it.
+cv::Mat disparity_to_point(const Rectification& rectification) {
+  const double focal_px = rectification.P1(0, 0);
+  const double tx_m = rectification.P2(0, 3) / rectification.P2(0, 0);
+  const double cx_difference_px = rectification.P1(0, 2) - rectification.P2(0, 2);
+  return (cv::Mat_<double>(4, 4) << 1.0, 0.0, 0.0, -rectification.P1(0, 2),  //
+          0.0, 1.0, 0.0, -rectification.P1(1, 2),                            //
+          0.0, 0.0, 0.0, focal_px,                                           //
+          0.0, 0.0, -1.0 / tx_m, cx_difference_px / tx_m);
+}
+
+void write_rectification(cv::FileStorage& file, const Rectification& rectification) {
+  file << "R1" << cv::Mat(to_cv(rectification.R1)) << "R2" << cv::Mat(to_cv(rectification.R2));
+  file << "P1" << cv::Mat(to_cv(rectification.P1)) << "P2" << cv::Mat(to_cv(rectification.P2));
+  file << "Q" << disparity_to_point(rectification);
+}
+
+}  // namespace
+
+void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration) {
+  cv::FileStorage file = yaml_text();
+  write_size(file, calibration.left.camera);
+  write_lens(file, "K1", "D1", calibration.left);
+  write_lens(file, "K2", "D2", calibration.right);
+  file << "R" << cv::Mat(to_cv(calibration.R)) << "T" << cv::Mat(to_cv(calibration.T));
+  if (calibration.rectification) write_rectification(file, *calibration.rectification);
+  write_mounting(file, calibration.mounting);
+  write_whole(path, file.releaseAndGetString());
+}
+
+void write_depth_calibration(const std::string& path, const DepthCalibration& calibration) {
+  cv::FileStorage file = yaml_text();
+  write_size(file, calibration.color.camera);
+  write_lens(file, "camera_matrix", "distortion_coefficients", calibration.color);
+  file << "depth_scale" << calibration.depth_scale_m;
+  write_mounting(file, calibration.mounting);
+  write_whole(path, file.releaseAndGetString());
+}
+
+}  // namespace limbcast
