@@ -65,6 +65,9 @@ struct ClassifierParams {
   /// Lowest log odds, by the depths around it, of a candidate that is grown. Low: the cluster tells
   /// more.
   float min_head_odds = -1.0F;
+  /// The same of a panorama's candidates, which lose `panorama_odds`. With -3 and -4 one person
+  /// more at most is found in 180 simulated scans.
+  float min_panorama_head_odds = -2.0F;
   /// Log odds that each candidate of a panorama gains: the classifier was trained on panoramas of
   /// 150 pixels a radian, and (230 / 150)^2 times as many places may look like a head by chance.
   /// Half of -ln 2.35, as pixels side by side see much the same: with all of it people of
@@ -179,6 +182,21 @@ struct LostArmParams {
   float max_seeds_apart_m = 0.7F, max_head_error_m = 0.2F;
 };
 
+/// Arms before a range finder that growing did not reach (floating_arms.hpp). Of 65 such surfaces
+/// beside simulated people 47 were limbs.
+struct FloatingArmParams {
+  /// Surfaces of nobody part where growing might go on: an arm from the wall.
+  SurfaceParams surface{0.05F, 0.006F};
+  /// Less is a stray return, more is larger than an arm with its sleeve [m^2].
+  float min_area_m2 = 0.003F, max_area_m2 = 0.12F;
+  /// Largest step to the nearest of the person's points [m]: an upper arm and a half.
+  float max_from_person_m = 0.5F;
+  /// Other surfaces of nobody's stand at least this far off [m], or it is a part of theirs.
+  float min_gap_m = 0.15F;
+  /// A hand is no farther from the head's centre [m]; arms that point hang no lower below it [m].
+  float max_head_distance_m = 1.1F, max_below_head_m = 0.6F;
+};
+
 /// The four filters of section III-B.2. The defaults are those of `growing = refined`: loose, since
 /// its classifiers judge too, and its clusters may be a head and a shoulder behind somebody else.
 struct FilterParams {
@@ -236,6 +254,7 @@ struct Params {
   HiddenHeadParams hidden_heads;
   WholeBodyParams whole_bodies;
   LostArmParams lost_arms;
+  FloatingArmParams floating_arms;
   FilterParams filters;
   FilterParams paper_filters = kPaperFilters;
   SkinParams skin;

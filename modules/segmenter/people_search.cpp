@@ -183,6 +183,8 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
                                         std::vector<RejectedHead>& rejected,
                                         const HeadOpinion& opinion) {
   const float prior_odds = lattice.wraps_around ? params.panorama_odds : 0.0F;
+  const float min_head_odds =
+      lattice.wraps_around ? params.min_panorama_head_odds : params.min_head_odds;
   for (HeadCandidate& candidate : candidates) {
     // What is known of a body's head comes from the body, not from its shape.
     if (candidate.kind != SeedKind::kBody)
@@ -203,7 +205,7 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
       candidate.odds = opinion(candidate).value_or(candidate.odds);
     }
     const float min_odds =
-        candidate.kind == SeedKind::kSkin ? params.min_skin_head_odds : params.min_head_odds;
+        candidate.kind == SeedKind::kSkin ? params.min_skin_head_odds : min_head_odds;
     if (candidate.odds < min_odds) {
       rejected.push_back(
           {candidate,

@@ -35,7 +35,7 @@ for log in logs/*.log; do
 done
 if [ -d "$data/stereo_dev" ]; then
   tests/accuracy/figures.sh refined "$data"
-  for name in one_person natural groups nobody rgbd; do check "$name"; done
+  for name in one_person natural groups nobody rgbd laser_dev; do check "$name"; done
 else
   echo "$data/stereo_dev is missing: only the recordings of logs/ were checked"
 fi

@@ -13,15 +13,23 @@ out=build/accuracy
 mkdir -p "$out"
 [ -d "$data/stereo_dev" ] || { echo "figures: $data/stereo_dev is missing; give the data folder" >&2; exit 2; }
 
-sets=(pointing general sequence multi nohuman hd rgbd_pointing)
-folder() { case $1 in rgbd_*) echo "$data/$1" ;; *) echo "$data/stereo_dev/$1" ;; esac; }
+sets=(pointing general sequence multi nohuman hd rgbd_pointing laser_dev)
+folder() { case $1 in rgbd_* | laser_*) echo "$data/$1" ;; *) echo "$data/stereo_dev/$1" ;; esac; }
+
+# record SET LOG: the set as its sensor's driver publishes it
+record() {
+  local source
+  source=$(folder "$1")
+  case $1 in
+    laser_*) "$bin/limbcast-laser-scanner" --source "$source" --log "$2" --log-level warning ;;
+    rgbd_*) "$bin/limbcast-depth-camera" --source "$source" --calibration "$source/calibration.yml" --log "$2" --log-level warning ;;
+    *) "$bin/limbcast-stereo-camera" --source "$source" --calibration "$source/calibration.yml" --log "$2" --log-level warning ;;
+  esac
+}
 
 for set in "${sets[@]}"; do
-  camera=stereo-camera
-  [[ $set == rgbd_* ]] && camera=depth-camera
   log=$out/$set.log
-  [ -e "$log" ] || "$bin/limbcast-$camera" --source "$(folder "$set")" \
-    --calibration "$(folder "$set")/calibration.yml" --log "$log" --log-level warning
+  [ -e "$log" ] || record "$set" "$log"
   "$bin/limbcast-replay" "$log" "$out/$set.$method.log" --pose_fitter.method="$method" --log-level warning
   "$bin/limbcast-export-poses" "$out/$set.$method.log" >"$out/$set.$method.jsonl"
 done
@@ -45,3 +53,4 @@ score natural "$bodies" general
 score groups "$bodies" multi
 score nobody "" nohuman
 score rgbd "" rgbd_pointing
+score laser_dev "" laser_dev

@@ -67,12 +67,12 @@ void point_with(refined::BodyState& body, int side, const Eigen::Vector3d& direc
   points[refined::kHand + side] = points[refined::kWrist + side] + 0.044 * body.stature_m() * way;
 }
 
-Segment seen(const refined::BodyState& body, int occluder_u) {
+Segment seen(const refined::BodyState& body, int occluder_u, const PinholeCamera& image_camera) {
   const Cones cones = refined::make_cones_of(body);
   const double head_z = body.points[refined::kHead].z();
   Segment segment;
   RangeImage image;
-  image.camera = camera();
+  image.camera = image_camera;
   image.full_width = image.camera.width;
   image.full_height = image.camera.height;
   for (int v = 0; v < image.camera.height; ++v) {

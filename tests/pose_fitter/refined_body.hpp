@@ -22,7 +22,8 @@ void point_with(refined::BodyState& body, int side, const Eigen::Vector3d& direc
 
 /// What a sensor without noise sees of the body before a wall 2 m behind it. `occluder_u`: columns
 /// from there on are hidden by a board 0.6 m before the body.
-Segment seen(const refined::BodyState& body, int occluder_u = 1 << 20);
+Segment seen(const refined::BodyState& body, int occluder_u = 1 << 20,
+             const PinholeCamera& image_camera = camera());
 /// The same person, seen by a camera with colours: none of it is skin.
 Segment colored(Segment segment);
 /// A body as a perfect network for poses would see it.

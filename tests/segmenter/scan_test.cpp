@@ -96,12 +96,29 @@ TEST(LikelyHeads, AreRarerAmongTheManyPlacesOfAPanorama) {
   ASSERT_FALSE(candidates.empty());
   const HeadClassifier classifier;
   ClassifierParams any;
-  any.min_head_odds = -100.0F;
+  any.min_panorama_head_odds = -100.0F;
   std::vector<RejectedHead> rejected;
   const auto heads = likely_heads(panorama, {candidates[0]}, classifier, any, rejected);
   ASSERT_EQ(heads.size(), 1U);
   EXPECT_LT(any.panorama_odds, 0.0F);
   EXPECT_FLOAT_EQ(heads[0].odds, classifier.head_odds(panorama, candidates[0]) + any.panorama_odds);
+}
+
+TEST(LikelyHeads, NeedLessOddsInAPanoramaThanBeforeACamera) {
+  const Params params;
+  Lattice panorama = render_panorama(figure_at(0.0F), level_frame(), params.panorama);
+  const std::vector<HeadCandidate> candidates = find_heads(panorama, params.head);
+  ASSERT_FALSE(candidates.empty());
+  const HeadClassifier classifier;
+  const float odds = classifier.head_odds(panorama, candidates[0]);
+  ClassifierParams limits;
+  limits.panorama_odds = 0.0F;
+  limits.min_panorama_head_odds = odds - 0.1F;
+  limits.min_head_odds = odds + 0.1F;
+  std::vector<RejectedHead> rejected;
+  EXPECT_EQ(likely_heads(panorama, {candidates[0]}, classifier, limits, rejected).size(), 1U);
+  panorama.wraps_around = false;
+  EXPECT_TRUE(likely_heads(panorama, {candidates[0]}, classifier, limits, rejected).empty());
 }
 
 TEST(RangeImageOfAScan, LeavesOutWhatMayBeABody) {

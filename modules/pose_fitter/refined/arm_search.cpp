@@ -12,7 +12,10 @@
 namespace limbcast::pose_fitter::refined {
 namespace {
 
-constexpr int kCellPx = 3;
+/// Cells in which points are taken as explained or not: fine enough for a forearm before a coarse
+/// range image, no finer than needed before a camera.
+constexpr Real kCellRad = 0.006;
+constexpr int kMostCellPx = 3;
 /// Lengths and radii along the arm, in statures.
 constexpr Real kUpperArm = 0.147, kForearm = 0.1465, kToHand = 0.05;
 constexpr Real kUpperArmRadius = 0.030, kElbowRadius = 0.026, kForearmRadius = 0.022,
@@ -102,18 +105,21 @@ struct ArmSearch::Frame {
 };
 
 ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params)
-    : observation_(observation), params_(params), directions_(sphere(params.arm_directions)) {
+    : observation_(observation),
+      params_(params),
+      directions_(sphere(params.arm_directions)),
+      cell_px_(std::clamp(cvRound(kCellRad * observation.camera.fx), 1, kMostCellPx)) {
   const PinholeCamera& camera = observation.camera;
-  grid_width_ = (camera.width + kCellPx - 1) / kCellPx;
-  grid_height_ = (camera.height + kCellPx - 1) / kCellPx;
-  for (int v = 0; v < camera.height; v += kCellPx) {
-    for (int u = 0; u < camera.width; u += kCellPx) {
+  grid_width_ = (camera.width + cell_px_ - 1) / cell_px_;
+  grid_height_ = (camera.height + cell_px_ - 1) / cell_px_;
+  for (int v = 0; v < camera.height; v += cell_px_) {
+    for (int u = 0; u < camera.width; u += cell_px_) {
       const float z = observation.smooth_surface_m(u, v);
       if (z <= 0.0F) continue;
       grid_points_.add(
           camera.back_project(static_cast<float>(u), static_cast<float>(v), z).cast<Real>(), 1.0F,
           observation.noise.sigma_m(z));
-      grid_cells_.push_back(v / kCellPx * grid_width_ + u / kCellPx);
+      grid_cells_.push_back(v / cell_px_ * grid_width_ + u / cell_px_);
     }
   }
   grid_points_.pad();
@@ -149,7 +155,7 @@ Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
   cost += behind < 0.0 ? std::min(kImpossible, sigmas2) : std::min(1.0, 0.6 * sigmas2);
   if (sigmas2 < 4.0) {
     const float unexplained =
-        unexplained_[static_cast<std::size_t>(v / kCellPx) * grid_width_ + u / kCellPx];
+        unexplained_[static_cast<std::size_t>(v / cell_px_) * grid_width_ + u / cell_px_];
     cost -= kUnexplainedReward * unexplained * (1.0 - 0.25 * sigmas2);
   }
   return cost;

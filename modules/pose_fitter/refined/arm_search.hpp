@@ -37,8 +37,8 @@ class ArmSearch {
   const Observation& observation_;
   const RefinedParams& params_;
   std::vector<Vec3> directions_;
-  int grid_width_ = 0, grid_height_ = 0;
-  PointColumns grid_points_;        ///< own points on every third pixel
+  int cell_px_ = 1, grid_width_ = 0, grid_height_ = 0;
+  PointColumns grid_points_;        ///< own points, one of each cell
   std::vector<int> grid_cells_;     ///< their cells
   std::vector<float> unexplained_;  ///< by cell, 0 to 1
   NearestCones nearest_;

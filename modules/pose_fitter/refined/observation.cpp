@@ -23,7 +23,7 @@ constexpr int kSmoothingRadiusPx = 3;
 constexpr float kSmoothingSigmas = 3.5F;
 /// Border kept around the person's pixels [px].
 constexpr int kMarginPx = 40;
-/// Weight 1 is an area of two squares of this side [m].
+/// Points weigh by the area they stand for, in squares of this side [m].
 constexpr float kWeightSideM = 0.03F;
 
 /// Virtual camera for points without a range image.
@@ -174,8 +174,11 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
   }
 }
 
-PointColumns sampled(const Observation& observation, int step, double reach_m) {
+PointColumns sampled(const Observation& observation, int step, const RefinedParams& params) {
   PointColumns points;
+  const bool of_scanner = observation.noise.quadratic_per_m <= 0.0F;
+  const auto square_weight =
+      static_cast<float>(of_scanner ? params.scan_point_weight : params.point_weight);
   const PinholeCamera& camera = observation.camera;
   for (int v = 0; v < camera.height; v += step) {
     for (int u = 0; u < camera.width; u += step) {
@@ -183,10 +186,10 @@ PointColumns sampled(const Observation& observation, int step, double reach_m) {
       if (z <= 0.0F) continue;
       const Vec3 point =
           camera.back_project(static_cast<float>(u), static_cast<float>(v), z).cast<Real>();
-      if ((point - observation.head_start).norm() > reach_m) continue;
+      if ((point - observation.head_start).norm() > params.reach_m) continue;
       const float side =
           z / static_cast<float>(camera.fx) * static_cast<float>(step) / kWeightSideM;
-      points.add(point, 0.5F * side * side, observation.noise.sigma_m(z));
+      points.add(point, square_weight * side * side, observation.noise.sigma_m(z));
     }
   }
   points.pad();
@@ -261,8 +264,8 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
                                         [](float z) { return z > 0.0F; });
   const int step = std::max(1, static_cast<int>(std::lround(std::sqrt(
                                    static_cast<double>(own_pixels) / params.target_points))));
-  observation.fine = sampled(observation, step, params.reach_m);
-  observation.coarse = sampled(observation, 2 * step, params.reach_m);
+  observation.fine = sampled(observation, step, params);
+  observation.coarse = sampled(observation, 2 * step, params);
   if (static_cast<int>(observation.fine.size()) < params.min_points) return std::nullopt;
   return observation;
 }

@@ -1,0 +1,34 @@
+#include "modules/pose_fitter/refined/observation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+#include "tests/pose_fitter/refined_body.hpp"
+
+namespace limbcast::pose_fitter::refined {
+namespace {
+
+/// Weight of all points of somebody before a sensor with this noise.
+float weight_of_points(const DepthNoise& noise) {
+  Stamp stamp = testing::stamp();
+  stamp.depth_noise = noise;
+  const auto observation =
+      observe(testing::seen(testing::standing_body(2.5, 0.0)), stamp, RefinedParams{});
+  const std::vector<float>& weights = observation.value().fine.weight;
+  return std::accumulate(weights.begin(), weights.end(), 0.0F);
+}
+
+TEST(ObservedPoints, OfARangeFinderWeighMoreSinceTheirErrorsAreTheirOwn) {
+  const RefinedParams params;
+  ASSERT_GT(params.scan_point_weight, params.point_weight);
+  const float of_camera = weight_of_points({0.005F, 0.002F}),
+              of_scanner = weight_of_points({0.005F, 0.0F});
+  const auto ratio = static_cast<float>(params.scan_point_weight / params.point_weight);
+  // Smoothed depths move a point's share of the area by less than a hundredth.
+  EXPECT_NEAR(of_scanner / of_camera, ratio, 0.01F * ratio);
+}
+
+}  // namespace
+}  // namespace limbcast::pose_fitter::refined
