@@ -4,7 +4,7 @@ namespace limbcast::reconstructor {
 
 void declare(config::Section& section, ReconstructorOptions& options) {
   section.add("near-limit-m", options.near_limit_m, "m",
-              "nearest depth; of a stereo pair it sets the disparities searched", {0.1, 100.0});
+              "nearest depth; of a stereo pair at most 255 disparities are searched", {0.1, 100.0});
   section.add("far-limit-m", options.far_limit_m, "m", "drop points beyond", {0.2, 1000.0});
   section.add("image-scale", options.image_scale, "",
               "size of the rectified images against the camera's: smaller is faster, less exact",

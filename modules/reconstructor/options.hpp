@@ -6,7 +6,8 @@ namespace limbcast::reconstructor {
 
 /// Options of the reconstructor, with their defaults.
 struct ReconstructorOptions {
-  double near_limit_m = 1.0;  ///< nearest depth; sets the disparities searched
+  /// Nearest depth; sets how many disparities may be searched. Somebody at a desk is 0.5 m away.
+  double near_limit_m = 0.4;
   double far_limit_m = 12.0;  ///< points beyond are dropped
   double image_scale = 1.0;   ///< of the rectified images against the camera's, (0, 1]
   /// Region of interest in the rectified left image [px]; 0 = to the image's border.

@@ -9,10 +9,14 @@
 #include "common/cloud/ground_plane.hpp"
 #include "modules/reconstructor/depth_to_cloud.hpp"
 #include "modules/reconstructor/matcher.hpp"
+#include "modules/reconstructor/near_look.hpp"
 #include "modules/reconstructor/triangulation.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
+
+/// What is nearer is looked for first, in small images: people stand farther away, mostly.
+constexpr double kUsualNearest_m = 1.0;
 
 void check_limits(const ReconstructorOptions& options) {
   if (options.near_limit_m < options.far_limit_m) return;
@@ -65,24 +69,21 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
       rectifier_(calibration, options.image_scale),
       roi_(region_of_interest(options, rectifier_.camera())) {
   check_limits(options);
-  const double focal_baseline = rectifier_.camera().fx * rectifier_.baseline_m();
-  num_disparities_ =
-      std::min(static_cast<int>(std::ceil(focal_baseline / options.near_limit_m)) + 1,
-               rectifier_.camera().width);
-  if (num_disparities_ > kMaxDisparities) {
-    std::ostringstream text;
-    text << "near-limit-m (" << options.near_limit_m << ") needs " << num_disparities_
-         << " disparities, at most " << kMaxDisparities
-         << " are searched: raise near-limit-m or lower image-scale";
-    throw std::invalid_argument(text.str());
-  }
+  const auto disparities_to = [&](double distance_m) {
+    const double focal_baseline = rectifier_.camera().fx * rectifier_.baseline_m();
+    return std::min({static_cast<int>(std::ceil(focal_baseline / distance_m)) + 1,
+                     rectifier_.camera().width, kMaxDisparities});
+  };
+  most_disparities_ = disparities_to(options.near_limit_m);
+  num_disparities_ = disparities_to(std::max(options.near_limit_m, kUsualNearest_m));
 }
 
 DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {
   MatcherParams params;
-  params.semi_global.num_disparities = num_disparities_;
+  const int num_disparities = find_num_disparities(pair, num_disparities_, most_disparities_);
+  params.semi_global.num_disparities = num_disparities;
   // A pixel's match stands up to num_disparities further left.
-  const int left_edge = std::max(0, roi_.x - num_disparities_);
+  const int left_edge = std::max(0, roi_.x - num_disparities);
   const cv::Rect searched(left_edge, roi_.y, roi_.x + roi_.width - left_edge, roi_.height);
   const DisparityImage found =
       reconstructor::match(pair.left(searched), pair.right(searched), params);

@@ -17,17 +17,20 @@ class StereoReconstructor {
 
   Cloud reconstruct(const StereoImages& images) const;
 
-  /// Disparities of a rectified pair; outside the region of interest there are none.
+  /// Disparities of a rectified pair, searched as far as its nearest surface needs; outside the
+  /// region of interest there are none.
   DisparityImage match(const RectifiedPair& pair) const;
 
   const Rectifier& rectifier() const { return rectifier_; }
+  /// Disparities that are searched where nothing is nearer than usual, and at most.
   int num_disparities() const { return num_disparities_; }
+  int most_disparities() const { return most_disparities_; }
 
  private:
   ReconstructorOptions options_;
   Mounting mounting_;
   Rectifier rectifier_;
-  int num_disparities_ = 0;
+  int num_disparities_ = 0, most_disparities_ = 0;
   cv::Rect roi_;
 };
 

@@ -13,6 +13,7 @@
 #include "common/lcm_io/stereo_images_codec.hpp"
 #include "modules/reconstructor/colors.hpp"
 #include "modules/reconstructor/matcher.hpp"
+#include "modules/reconstructor/near_look.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 #include "tests/reconstructor/opencv_matcher.hpp"
 #include "tests/support/child_process.hpp"
@@ -21,6 +22,8 @@ namespace limbcast::reconstructor {
 namespace {
 
 constexpr int kNumDisparities = 64;
+/// As far as the default near limit.
+constexpr int kMostDisparities = 157;
 
 template <typename Message>
 Message first_message(const std::string& channel) {
@@ -57,6 +60,13 @@ void limbcast_match(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(match(pair.left, pair.right, demo_params()));
 }
 BENCHMARK(limbcast_match)->Unit(benchmark::kMillisecond);
+
+void limbcast_near_look(benchmark::State& state) {
+  const RectifiedPair& pair = demo_pair();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(find_num_disparities(pair, kNumDisparities, kMostDisparities));
+}
+BENCHMARK(limbcast_near_look)->Unit(benchmark::kMillisecond);
 
 void limbcast_semi_global(benchmark::State& state) {
   const cv::Mat1b left = grey_of(demo_pair().left), right = grey_of(demo_pair().right);
