@@ -219,11 +219,21 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
-  FittedBody fitted = doubtful_person(0.76, 0.8);
+  FittedBody fitted = doubtful_person(0.76, 0.85);
   fitted.observation.noise.quadratic_per_m = 0.002F;
   EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise.quadratic_per_m = 0.0F;
   EXPECT_FALSE(told_alone(fitted));
+}
+
+TEST(PersonConfidence, MayBeLowerSoNearToACameraThatLegsAreOutOfSight) {
+  FittedBody fitted = doubtful_person(0.5, 0.75);
+  fitted.observation.noise.quadratic_per_m = 0.002F;
+  EXPECT_FALSE(told_alone(fitted));
+  fitted.body.points[kHead].z() = 1.2;
+  EXPECT_TRUE(told_alone(fitted));
+  fitted.observation.noise.quadratic_per_m = 0.0F;
+  EXPECT_FALSE(told_alone(fitted)) << "of a scanner";
 }
 
 TEST(PersonConfidence, MayBeLowerInCompany) {

@@ -75,12 +75,6 @@ simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9
 simulate p_laser_nohuman4 nohuman laser 200 871
 simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"
 simulate p_nohuman5 nohuman stereo 200 873
-# People at a desk before the camera, of whom head, shoulders and arms are in sight.
-desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
-simulate p_near_general general stereo 160 881 "${desk[@]}"
-simulate p_near_nohuman nohuman stereo 150 882 "${desk[@]}"
-simulate p_near_depth general depth 80 883 --color "${desk[@]}"
-simulate p_near_depth_nohuman nohuman depth 80 884 --color "${desk[@]}"
 
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done
