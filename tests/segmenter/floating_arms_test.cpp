@@ -84,11 +84,14 @@ TEST_F(FloatingArm, IsTakenWhereTheDepthsLeftItUnsure) {
 
 TEST_F(FloatingArm, IsTheNearestPersons) {
   constexpr Board kNeighbor{0.85F, 0.9F, -0.6F, 0.85F};
-  boards_.push_back(kNeighbor);
+  constexpr Board kArmOfTheFirst{0.3F, 0.55F, 0.2F, 0.28F},
+      kArmOfTheOther{0.5F, 0.75F, 0.5F, 0.58F};
+  boards_ = {kArmOfTheFirst, kArmOfTheOther, kNeighbor};
   look();
   people_.heads.push_back(head_at(lattice_, 0.87F, kHeadUp_m));
   label(kNeighbor, 1);
-  EXPECT_EQ(label_of(kRaisedArm), 1);
+  EXPECT_EQ(label_of(kArmOfTheFirst), 0);
+  EXPECT_EQ(label_of(kArmOfTheOther), 1);
 }
 
 TEST_F(FloatingArm, IsNoneNearOtherThings) {
