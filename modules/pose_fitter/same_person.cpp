@@ -1,6 +1,9 @@
 #include "modules/pose_fitter/same_person.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -9,34 +12,57 @@
 namespace limbcast::pose_fitter {
 namespace {
 
-constexpr std::pair<Joint, Joint> kSides[] = {{Joint::kShoulderLeft, Joint::kShoulderRight},
-                                              {Joint::kHipLeft, Joint::kHipRight}};
+constexpr std::array<Joint, 4> kSpine = {Joint::kHead, Joint::kNeck, Joint::kChest, Joint::kPelvis};
 
-std::optional<float> trunk_distance_m(const BodyPose& a, const BodyPose& b, bool swapped) {
-  MeanJointDistance distance;
-  for (const Joint joint : {Joint::kNeck, Joint::kChest, Joint::kPelvis}) {
-    distance.add(a[joint], b[joint]);
+float distance_from_line_m(const Eigen::Vector3f& point, const Eigen::Vector3f& from,
+                           const Eigen::Vector3f& to) {
+  const Eigen::Vector3f line = to - from;
+  const float length2 = std::max(line.squaredNorm(), std::numeric_limits<float>::min());
+  const float along = std::clamp((point - from).dot(line) / length2, 0.0F, 1.0F);
+  return (point - from - along * line).norm();
+}
+
+/// Nothing where fewer than two joints of the spine are told.
+std::optional<float> distance_from_spine_m(const Eigen::Vector3f& point, const BodyPose& body) {
+  std::optional<float> nearest_m;
+  const JointEstimate* above = nullptr;
+  for (const Joint joint : kSpine) {
+    const JointEstimate& below = body[joint];
+    if (!below.valid) continue;
+    if (above != nullptr) {
+      const float distance_m = distance_from_line_m(point, above->position_m, below.position_m);
+      nearest_m = std::min(distance_m, nearest_m.value_or(distance_m));
+    }
+    above = &below;
   }
-  for (const auto& [left, right] : kSides) {
-    distance.add(a[left], b[swapped ? right : left]);
-    distance.add(a[right], b[swapped ? left : right]);
+  return nearest_m;
+}
+
+/// How far the trunk of one body stands beside the spine of another; nothing where too few of their
+/// joints are told.
+std::optional<float> beside_spine_m(const BodyPose& trunk, const BodyPose& spine) {
+  float sum_m = 0.0F;
+  int count = 0;
+  for (const Joint joint : {Joint::kNeck, Joint::kChest}) {
+    if (!trunk[joint].valid) continue;
+    const auto distance_m = distance_from_spine_m(trunk[joint].position_m, spine);
+    if (!distance_m) return std::nullopt;
+    sum_m += *distance_m;
+    ++count;
   }
-  return distance.mean_m();
+  if (count == 0) return std::nullopt;
+  return sum_m / static_cast<float>(count);
 }
 
 }  // namespace
 
 bool same_place(const BodyPose& a, const BodyPose& b) {
-  // One of the two may be fitted back to front.
-  for (const bool swapped : {false, true}) {
-    const auto trunk_m = trunk_distance_m(a, b, swapped);
-    if (trunk_m && *trunk_m < kSameTrunkM) return true;
-    if (trunk_m) continue;
-    MeanJointDistance heads;
-    heads.add(a[Joint::kHead], b[Joint::kHead]);
-    return heads.mean_m().value_or(kSameTrunkM) < kSameTrunkM;
-  }
-  return false;
+  const auto a_m = beside_spine_m(a, b), b_m = beside_spine_m(b, a);
+  if (a_m || b_m)
+    return std::min(a_m.value_or(kSameSpineM), b_m.value_or(kSameSpineM)) < kSameSpineM;
+  MeanJointDistance heads;
+  heads.add(a[Joint::kHead], b[Joint::kHead]);
+  return heads.mean_m().value_or(kSameSpineM) < kSameSpineM;
 }
 
 void remove_double_reports(std::vector<BodyPose>& persons) {

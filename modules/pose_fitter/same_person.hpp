@@ -6,13 +6,13 @@
 
 namespace limbcast::pose_fitter {
 
-/// Two bodies closer than this, trunk on trunk, are one person seen twice [m]: a trunk is about 20
-/// cm deep and 30 wide, so those of two people cannot be nearer.
-inline constexpr float kSameTrunkM = 0.20F;
+/// Two bodies of which one has neck and chest this near to the other's spine are one person seen
+/// twice [m]. Of 990 pairs of people in simulated and recorded groups none is nearer than 0.41;
+/// doubles, of which one is often shrunk to a head and an arm, were at 0.14 to 0.19.
+inline constexpr float kSameSpineM = 0.25F;
 
-/// Whether both poses stand in one place: the mean distance of the trunk's joints (neck, chest,
-/// pelvis, shoulders, hips; any order of left and right) that both have, or of the heads where they
-/// share none.
+/// Whether both poses stand in one place: the mean distance of neck and chest of one of them from
+/// the line head, neck, chest, pelvis of the other, or of the heads where neither has such a line.
 bool same_place(const BodyPose& a, const BodyPose& b);
 
 /// Drops, of each two bodies in one place, the less confident one (of equal ones the later), and

@@ -58,6 +58,19 @@ TEST(DoubleReports, KnowABodyThatWasFittedBackToFront) {
   EXPECT_TRUE(same_place(body_at(1, 0.0F, 0.5F), flipped));
 }
 
+TEST(DoubleReports, KnowABodyThatShrankToAHeadAndAnArm) {
+  BodyPose shrunk = body_at(2, 0.15F, 0.6F);
+  shrunk[Joint::kPelvis].position_m = {0.3F, -0.25F, 3.0F};
+  EXPECT_TRUE(same_place(body_at(1, 0.0F, 0.99F), shrunk));
+  EXPECT_TRUE(same_place(shrunk, body_at(1, 0.0F, 0.99F)));
+}
+
+TEST(DoubleReports, KeepAChildBeforeAnAdult) {
+  BodyPose child = body_at(2, 0.0F, 0.9F);
+  for (JointEstimate& joint : child.joints) joint.position_m += Eigen::Vector3f(0.0F, 0.4F, -0.4F);
+  EXPECT_FALSE(same_place(body_at(1, 0.0F, 0.9F), child));
+}
+
 TEST(DoubleReports, CompareHeadsWhereNoTrunkIsShared) {
   BodyPose a, b;
   a[Joint::kHead].valid = b[Joint::kHead].valid = true;
