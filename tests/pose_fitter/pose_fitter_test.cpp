@@ -60,7 +60,8 @@ TEST(DoubleReports, KnowABodyThatWasFittedBackToFront) {
 
 TEST(DoubleReports, KnowABodyThatShrankToAHeadAndAnArm) {
   BodyPose shrunk = body_at(2, 0.15F, 0.6F);
-  shrunk[Joint::kPelvis].position_m = {0.3F, -0.25F, 3.0F};
+  shrunk[Joint::kNeck].position_m = {0.15F, -0.1F, 3.0F};
+  shrunk[Joint::kPelvis].position_m = {0.3F, 0.0F, 3.0F};
   EXPECT_TRUE(same_place(body_at(1, 0.0F, 0.99F), shrunk));
   EXPECT_TRUE(same_place(shrunk, body_at(1, 0.0F, 0.99F)));
 }
