@@ -97,11 +97,7 @@ void add_floating_arms(const Lattice& lattice, const FloatingArmParams& params,
   std::vector<std::int16_t> taken = people.labels;
   std::replace(taken.begin(), taken.end(), kUnsure, kNobody);
   const Surfaces surfaces = find_surfaces(lattice, params.surface, &taken);
-  std::vector<std::vector<std::uint32_t>> points(surfaces.all.size());
-  for (std::uint32_t i = 0; i < lattice.size(); ++i) {
-    if (surfaces.of_point[i] >= 0)
-      points[static_cast<std::size_t>(surfaces.of_point[i])].push_back(i);
-  }
+  const std::vector<std::vector<std::uint32_t>> points = points_by_surface(surfaces);
   const ArmOwner owner(lattice, surfaces, params, people);
   std::vector<std::int16_t> owners;
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -37,12 +37,7 @@ Extent measure(const Lattice& lattice, std::vector<std::uint32_t> points) {
 std::vector<std::vector<std::uint32_t>> points_of_surfaces(const Surfaces& surfaces,
                                                            float min_area_m2, float max_area_m2,
                                                            float max_extent_m) {
-  std::vector<std::vector<std::uint32_t>> points(surfaces.all.size());
-  for (std::uint32_t i = 0; i < surfaces.of_point.size(); ++i) {
-    if (surfaces.of_point[i] >= 0)
-      points[static_cast<std::size_t>(surfaces.of_point[i])].push_back(i);
-  }
-  std::vector<std::vector<std::uint32_t>> kept;
+  std::vector<std::vector<std::uint32_t>> points = points_by_surface(surfaces), kept;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Surface& surface = surfaces.all[k];
     if (surface.area_m2 >= min_area_m2 && surface.area_m2 <= max_area_m2 &&

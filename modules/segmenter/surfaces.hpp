@@ -24,4 +24,7 @@ struct Surfaces {
 Surfaces find_surfaces(const Lattice& lattice, const SurfaceParams& params,
                        const std::vector<std::int16_t>* taken = nullptr);
 
+/// The points of each surface, in the order of `surfaces.all`.
+std::vector<std::vector<std::uint32_t>> points_by_surface(const Surfaces& surfaces);
+
 }  // namespace limbcast::segmenter
