@@ -34,6 +34,8 @@ struct DepthNoise {
   float constant_m = 0.0F;
   float quadratic_per_m = 0.0F;
   float sigma_m(float z_m) const { return constant_m + quadratic_per_m * z_m * z_m; }
+  /// A camera's does, where neighbouring points share their errors; a range finder's does not.
+  bool grows_with_distance() const { return quadratic_per_m > 0.0F; }
 };
 
 /// What stays the same from the capture to the pose: who saw it, when, and how the sensor stood.

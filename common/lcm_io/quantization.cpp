@@ -20,7 +20,7 @@ std::int16_t list_code(float value, double step) {
 double inverse_depth_scale(const DepthNoise& noise, const QuantizationParams& params) {
   const double largest = kMaxDepthCode * params.min_depth_m;
   // A step of q is z^2 / S wide, so S = steps / quadratic makes it sigma / steps at every depth.
-  if (noise.quadratic_per_m <= 0.0F) return largest;
+  if (!noise.grows_with_distance()) return largest;
   return std::min(largest, static_cast<double>(params.steps_per_sigma) / noise.quadratic_per_m);
 }
 

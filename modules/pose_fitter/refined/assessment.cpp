@@ -32,9 +32,8 @@ constexpr Real kNearM = 1.5, kLeastNearPersonConfidence = 0.5;
 /// a body must be surer (a thing 6.7 m from a VGA pair was told with 0.77).
 constexpr Real kMostTrainedNoiseM = 0.05, kLeastNoisyPersonConfidence = 0.9;
 
-/// A camera's noise grows with the distance, a scanner's does not.
 bool of_scanner(const Observation& observation) {
-  return !observation.has_colors && observation.noise.quadratic_per_m <= 0.0F;
+  return !observation.has_colors && !observation.noise.grows_with_distance();
 }
 
 bool is_noisy(const FittedBody& fitted) {

@@ -176,9 +176,8 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
 
 PointColumns sampled(const Observation& observation, int step, const RefinedParams& params) {
   PointColumns points;
-  const bool of_scanner = observation.noise.quadratic_per_m <= 0.0F;
-  const auto square_weight =
-      static_cast<float>(of_scanner ? params.scan_point_weight : params.point_weight);
+  const auto square_weight = static_cast<float>(
+      observation.noise.grows_with_distance() ? params.point_weight : params.scan_point_weight);
   const PinholeCamera& camera = observation.camera;
   for (int v = 0; v < camera.height; v += step) {
     for (int u = 0; u < camera.width; u += step) {
@@ -208,7 +207,7 @@ void PointColumns::add(const Vec3& point, float point_weight, float point_sigma_
 
 float Observation::smooth_surface_m(int u, int v) const {
   const float z = surface_m[at(u, v)];
-  if (z <= 0.0F || noise.quadratic_per_m <= 0.0F) return z;
+  if (z <= 0.0F || !noise.grows_with_distance()) return z;
   const float limit = kSmoothingSigmas * noise.sigma_m(z);
   float sum = 0.0F;
   int count = 0;
