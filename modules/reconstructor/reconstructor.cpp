@@ -78,6 +78,11 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
   num_disparities_ = disparities_to(std::max(options.near_limit_m, kUsualNearest_m));
 }
 
+double StereoReconstructor::nearest_m() const {
+  return std::max(options_.near_limit_m,
+                  rectifier_.camera().fx * rectifier_.baseline_m() / most_disparities_);
+}
+
 DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {
   MatcherParams params;
   const int num_disparities = find_num_disparities(pair, num_disparities_, most_disparities_);

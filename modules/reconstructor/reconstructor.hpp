@@ -25,6 +25,8 @@ class StereoReconstructor {
   /// Disparities that are searched where nothing is nearer than usual, and at most.
   int num_disparities() const { return num_disparities_; }
   int most_disparities() const { return most_disparities_; }
+  /// What is nearer is not seen [m], where the matcher cannot search as far as the near limit asks.
+  double nearest_m() const;
 
  private:
   ReconstructorOptions options_;

@@ -1,11 +1,31 @@
 #include "modules/reconstructor/stage.hpp"
 
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "common/config/log.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/depth_images_codec.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
 
 namespace limbcast::reconstructor {
+namespace {
+
+/// Says so where less is searched than the near limit asks for.
+void tell_nearest(const StereoReconstructor& reconstructor, const std::string& sensor,
+                  const ReconstructorOptions& options) {
+  if (reconstructor.nearest_m() <= options.near_limit_m) return;
+  std::ostringstream text;
+  text << "stereo camera '" << sensor << "': nothing nearer than " << std::fixed
+       << std::setprecision(2) << reconstructor.nearest_m() << " m is seen, not near-limit-m ("
+       << options.near_limit_m << "), as at most " << reconstructor.most_disparities()
+       << " disparities are searched; a lower image-scale sees nearer";
+  config::log(config::LogLevel::kInfo, text.str());
+}
+
+}  // namespace
 
 void declare(config::Section& section, StageOptions& options) {
   declare(section, options.algorithm);
@@ -22,10 +42,13 @@ void Stage::on_calibration(stereo_calibration_t message) {
   std::vector<std::uint8_t> bytes(message.getEncodedSize());
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   const Camera* known = cameras_.find(message.sensor);
-  auto reconstructor = known != nullptr && known->calibration == bytes
-                           ? known->reconstructor
-                           : std::make_shared<const StereoReconstructor>(
-                                 lcm_io::from_message(message), options_.algorithm);
+  if (known != nullptr && known->calibration == bytes) {
+    cameras_.get(message.sensor);  // the one used last is kept longest
+    return;
+  }
+  auto reconstructor = std::make_shared<const StereoReconstructor>(lcm_io::from_message(message),
+                                                                   options_.algorithm);
+  tell_nearest(*reconstructor, message.sensor, options_.algorithm);
   cameras_.get(message.sensor) = {std::move(bytes), std::move(reconstructor)};
 }
 

@@ -93,5 +93,17 @@ TEST_F(ReconstructorProgram, WarnsInItsStatusOfACalibrationThatDrifted) {
   EXPECT_EQ(status_->note, "");
 }
 
+TEST(NearLimit, IsToldWhereTheMatcherCannotSearchSoFar) {
+  const std::string out = temporary_folder("near_limit") + "/poses.log";
+  const auto replay = [&](const std::string& near_limit_m) {
+    return run({program("limbcast-replay"), repository_file("logs/nobody.log"), out,
+                "--reconstructor.near-limit-m", near_limit_m});
+  };
+  const RunResult too_near = replay("0.1");
+  EXPECT_EQ(too_near.exit_code, 0);
+  EXPECT_THAT(too_near.output, ContainsRegex("nothing nearer than 0.2[0-9] m is seen"));
+  EXPECT_THAT(replay("0.4").output, ::testing::Not(HasSubstr("nothing nearer")));
+}
+
 }  // namespace
 }  // namespace limbcast::test
