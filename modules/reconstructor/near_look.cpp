@@ -1,7 +1,6 @@
 #include "modules/reconstructor/near_look.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/core/fast_math.hpp>
