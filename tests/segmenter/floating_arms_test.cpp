@@ -52,6 +52,13 @@ class FloatingArm : public ::testing::Test {
     return labels.at(0);
   }
 
+  /// The same of a board that hangs there instead of the arm.
+  std::int16_t label_alone(const Board& board) {
+    boards_ = {board};
+    look();
+    return label_of(board);
+  }
+
   std::vector<Board> boards_ = {kRaisedArm};
   Lattice lattice_;
   FoundPeople people_;
@@ -109,17 +116,13 @@ TEST_F(FloatingArm, MayHangBeforeThingsThatStandFartherOff) {
 }
 
 TEST_F(FloatingArm, IsNoneFarFromPeople) {
-  constexpr Board kFar{0.2F + FloatingArmParams{}.max_from_person_m + 0.05F, 0.9F, 0.45F, 0.53F};
-  boards_ = {kFar};
-  look();
-  EXPECT_EQ(label_of(kFar), kNobody);
+  constexpr float kFar_m = 0.2F + FloatingArmParams{}.max_from_person_m + 0.05F;
+  EXPECT_EQ(label_alone({kFar_m, 0.9F, 0.45F, 0.53F}), kNobody);
 }
 
 TEST_F(FloatingArm, IsNoneFartherFromTheHeadThanAHandReaches) {
   constexpr Board kLongest{0.25F, 0.7F, 0.45F, 0.49F};
-  boards_ = {kLongest};
-  look();
-  ASSERT_EQ(label_of(kLongest), 0);
+  ASSERT_EQ(label_alone(kLongest), 0);
   label(kLongest, kNobody);
   people_.heads[0].center_m.x() -= FloatingArmParams{}.max_head_distance_m - 0.6F;
   EXPECT_EQ(label_of(kLongest), kNobody);
@@ -127,24 +130,15 @@ TEST_F(FloatingArm, IsNoneFartherFromTheHeadThanAHandReaches) {
 
 TEST_F(FloatingArm, IsNoneFarBelowTheHead) {
   constexpr float kLow_m = kHeadUp_m - FloatingArmParams{}.max_below_head_m - 0.1F;
-  constexpr Board kLow{0.4F, 0.7F, kLow_m, kLow_m + 0.08F};
-  boards_ = {kLow};
-  look();
-  EXPECT_EQ(label_of(kLow), kNobody);
+  EXPECT_EQ(label_alone({0.4F, 0.7F, kLow_m, kLow_m + 0.08F}), kNobody);
 }
 
 TEST_F(FloatingArm, IsNoLargerSurface) {
-  constexpr Board kLarge{0.4F, 0.7F, 0.2F, 0.7F};
-  boards_ = {kLarge};
-  look();
-  EXPECT_EQ(label_of(kLarge), kNobody);
+  EXPECT_EQ(label_alone({0.4F, 0.7F, 0.2F, 0.7F}), kNobody);
 }
 
 TEST_F(FloatingArm, IsNoStrayReturn) {
-  constexpr Board kSpeck{0.4F, 0.44F, 0.45F, 0.49F};
-  boards_ = {kSpeck};
-  look();
-  EXPECT_EQ(label_of(kSpeck), kNobody);
+  EXPECT_EQ(label_alone({0.4F, 0.44F, 0.45F, 0.49F}), kNobody);
 }
 
 }  // namespace
