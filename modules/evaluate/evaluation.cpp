@@ -50,11 +50,28 @@ bool arm_is_hidden(const BodyPose& truth, Side side) {
          !is_visible(truth[on_side(Joint::kWristLeft, side)]);
 }
 
+/// A label that cannot be trusted proves nothing, right or wrong.
+bool can_be_judged(const BodyPose& truth, const Pointing& pointing) {
+  return !pointing.direction.isZero() &&
+         (pointing.confidence > 0.5F || arm_is_hidden(truth, pointing.side));
+}
+
 }  // namespace
 
 bool surely_not_pointing(const BodyPose& truth, const EvaluationParams& params) {
   return truth.pointing.empty() && arm_rests(truth, Side::kLeft, params) &&
          arm_rests(truth, Side::kRight, params);
+}
+
+std::optional<Eigen::Vector3f> true_arm_axis(const BodyPose& truth, Side side) {
+  for (const Pointing& pointing : truth.pointing) {
+    if (pointing.side == side)
+      return can_be_judged(truth, pointing) ? std::optional(pointing.direction) : std::nullopt;
+  }
+  const JointEstimate& shoulder = truth[on_side(Joint::kShoulderLeft, side)];
+  const JointEstimate& wrist = truth[on_side(Joint::kWristLeft, side)];
+  if (!shoulder.valid || !wrist.valid) return std::nullopt;
+  return wrist.position_m - shoulder.position_m;
 }
 
 /// A true person and what was reported for it.
@@ -160,13 +177,29 @@ void Evaluation::add_pointing(const Subject& subject) {
     tally_.said_to_point.add(says);
     if (says) note(subject, "does not point but is said to");
   }
+  if (says) add_told_arms(subject);
+}
+
+/// Also of people who point with another arm or with none, where nothing else asks whether what is
+/// told of an arm is so.
+void Evaluation::add_told_arms(const Subject& subject) {
+  for (const Pointing& said : subject.reported->pointing) {
+    const auto axis = true_arm_axis(subject.truth, said.side);
+    if (!axis) continue;
+    const double error_deg = angle_deg(said.direction, *axis);
+    const bool off = error_deg > params_.wrong_direction_deg;
+    tally_.told_arms_off.add(off);
+    // Of the arm that points `add_judged_arm` says so.
+    const auto& points = subject.truth.pointing;
+    const bool is_judged = !points.empty() && points.front().side == said.side;
+    if (off && !is_judged) note(subject, "arm is elsewhere than told", error_deg);
+  }
 }
 
 void Evaluation::add_judged_arm(const Subject& subject, const Pointing& truth,
                                 const Pointing* said) {
+  if (!can_be_judged(subject.truth, truth)) return;
   const bool visible = truth.confidence > 0.5F;
-  // A label that cannot be trusted proves nothing, right or wrong.
-  if (truth.direction.isZero() || (!visible && !arm_is_hidden(subject.truth, truth.side))) return;
   const bool right_side = said != nullptr && said->side == truth.side;
   const double error_deg = right_side ? angle_deg(said->direction, truth.direction) : 180.0;
   const bool right = right_side && error_deg <= params_.right_direction_deg;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,7 @@ struct Tally {
   int pointing_reported = 0;  ///< reported arms of true persons whose arm can be judged
   int wrong_direction = 0, wrong_side = 0;
   Share said_to_point;  ///< of found persons whose arms are both bent or hanging
+  Share told_arms_off;  ///< of all directions told of arms that the truth knows, hidden ones too
   /// Errors of the directions reported for visible pointing arms, right side [degrees].
   std::vector<double> pointing_errors_deg, forearm_errors_deg, head_hand_errors_deg;
   std::array<Share, kJointCount>
@@ -83,6 +85,10 @@ struct Tally {
 /// or hangs.
 bool surely_not_pointing(const BodyPose& truth, const EvaluationParams& params = {});
 
+/// From the shoulder to the wrist, also of a hidden arm, not of unit length; nothing where the
+/// truth does not know the arm or its label cannot be trusted.
+std::optional<Eigen::Vector3f> true_arm_axis(const BodyPose& truth, Side side);
+
 /// Compares reported poses with the truth, frame by frame. Only visible joints count.
 class Evaluation {
  public:
@@ -101,6 +107,7 @@ class Evaluation {
   void add_person(const Subject& subject);
   void add_joints(const Subject& subject);
   void add_pointing(const Subject& subject);
+  void add_told_arms(const Subject& subject);
   void add_judged_arm(const Subject& subject, const Pointing& truth, const Pointing* said);
   void add_directions(const Pointing& truth, const Pointing& said);
   void note(const Subject& subject, const std::string& what, double figure = 0.0);

@@ -104,6 +104,8 @@ void add_pointing(const Tally& tally, std::vector<Figure>& figures) {
   direction("head_hand", "pointing, head to hand", tally.head_hand_errors_deg, "", "");
   figures.push_back(percent("said_to_point_percent", "not pointing but said to [%]",
                             tally.said_to_point, "found persons with resting arms", "<= 1"));
+  figures.push_back(percent("told_arms_off_percent", "told arms that are elsewhere [%]",
+                            tally.told_arms_off, "directions told of known arms"));
 }
 
 void add_joints(const Tally& tally, std::vector<Figure>& figures) {

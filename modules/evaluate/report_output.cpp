@@ -67,6 +67,7 @@ int gravity_of(const Finding& finding) {
                                                   "direction off",
                                                   "direction of a hidden arm off",
                                                   "does not point but is said to",
+                                                  "arm is elsewhere than told",
                                                   "not found",
                                                   "points but no direction reported",
                                                   "direction inexact"};

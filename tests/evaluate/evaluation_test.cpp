@@ -177,6 +177,31 @@ TEST(Evaluate, MindsPointingOfRestingPeople) {
             0);  // a straight, raised arm
 }
 
+TEST(Evaluate, AsksOfEachToldArmWhetherItIsThere) {
+  BodyPose bent = standing_figure();  // points with no arm
+  bent[Joint::kWristLeft].position_m =
+      bent[Joint::kShoulderLeft].position_m + Eigen::Vector3f(0.0F, -0.1F, 0.0F);
+  hide(bent, Joint::kWristLeft);
+  BodyPose says = standing_figure();
+  says.pointing.push_back(left_arm());
+  const Tally off = tally_of({bent}, {says});
+  EXPECT_EQ(off.told_arms_off.count, 1);
+  EXPECT_EQ(off.told_arms_off.total, 1);
+  EXPECT_EQ(off.findings.back().what, "arm is elsewhere than told");
+  bent[Joint::kWristLeft].valid = false;  // nobody knows where it is
+  EXPECT_EQ(tally_of({bent}, {says}).told_arms_off.total, 0);
+}
+
+TEST(Evaluate, AsksOfTheSecondToldArmTooWhetherItIsThere) {
+  BodyPose says = pointing_figure();
+  says.pointing.push_back(says.pointing[0]);
+  says.pointing[1].side = Side::kRight;
+  const Tally tally = tally_of({pointing_figure()}, {says});
+  EXPECT_EQ(tally.told_arms_off.count, 1);
+  EXPECT_EQ(tally.told_arms_off.total, 2);
+  EXPECT_EQ(tally.pointing_right.count, 1);
+}
+
 TEST(SurelyNotPointing, HoldsForBentAndHangingArms) {
   EXPECT_TRUE(surely_not_pointing(resting_figure()));
   EXPECT_FALSE(surely_not_pointing(standing_figure()));

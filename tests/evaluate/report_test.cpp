@@ -96,6 +96,7 @@ Tally known_tally() {
   tally.wrong_direction = 4;
   tally.wrong_side = 0;
   tally.said_to_point = {1, 5};
+  tally.told_arms_off = {1, 8};
   tally.pointing_errors_deg = {1.0, 3.0};
   tally.forearm_errors_deg = {6.0};
   tally.head_hand_errors_deg = {7.0};
@@ -133,6 +134,7 @@ TEST(Report, HasTheValuesOfTheTally) {
   expect("forearm_median_deg", 6.0, 0, 1);
   expect("head_hand_p90_deg", 7.0, 0, 1);
   expect("said_to_point_percent", 20.0, 1, 5);
+  expect("told_arms_off_percent", 12.5, 1, 8);
   expect("joints_within_10cm_percent", 50.0, 2, 4);
   expect("elbows_within_10cm_percent", 50.0, 2, 4);
   expect("joints_reported_percent", 75.0, 3, 4);

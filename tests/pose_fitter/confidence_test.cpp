@@ -50,6 +50,20 @@ TEST_F(Confidence, OfAJointFallsWhereTheImageShowsItElsewhere) {
   EXPECT_LT(joint_confidence(evidence_, kWrist), before);
 }
 
+TEST_F(Confidence, OfADirectionFallsWhereTheImageShowsTheHandElsewhere) {
+  for (ImageEvidence& image : evidence_.images) image.visibility.fill(1.0);
+  evidence_.images[0].told = true;
+  const Real before = of_direction();
+  evidence_.images[0].disagreement[kWrist] = 0.5;
+  const Real of_one_network = of_direction();
+  EXPECT_LT(of_one_network, before);
+  evidence_.images[1].disagreement[kWrist] = 0.5;
+  EXPECT_LT(of_direction(), of_one_network);
+  evidence_.images[1].disagreement[kWrist + 1] = 1.0;  // of the other arm
+  evidence_.images[1].disagreement[kWrist] = 0.0;
+  EXPECT_EQ(of_direction(), of_one_network);
+}
+
 TEST_F(Confidence, OfADirectionTakesTheSameGapForMoreWithAChild) {
   const Real before = of_direction();
   body_.log_stature = std::log(0.7);  // 1.2 m
@@ -122,6 +136,8 @@ class ToldDirections : public Confidence {
     const auto observation = observe(testing::seen(body_), testing::stamp(), RefinedParams{});
     if (observation) observation_ = *observation;
     evidence_.head_odds = 3.0;
+    evidence_.images[0].told = true;
+    for (ImageEvidence& image : evidence_.images) image.visibility.fill(1.0);
   }
   std::vector<Side> sides() const {
     std::vector<Side> sides;
@@ -131,16 +147,16 @@ class ToldDirections : public Confidence {
     for (const Pointing& pointing : told->pose.pointing) sides.push_back(pointing.side);
     return sides;
   }
-  /// Takes rivals for one arm that are so good that its confidence lies between `least` and `most`.
+  /// The image shows one arm's hand so far elsewhere that the arm's confidence lies between `least`
+  /// and `most`.
   void make_as_sure(int side, Real least, Real most) {
-    ArmEvidence& arm = evidence_.arms[side];
-    for (const Real sigma_rad : {0.03, 0.1, 0.3}) {
-      arm = {/*support=*/15.0, /*gap=*/15.0,     /*bend_rad=*/0.1,
-             sigma_rad,        /*forwards=*/0.0, /*outwards=*/1.0};
-      for (; arm.gap >= 0.0; arm.gap -= 0.05) {
-        const Real confidence = direction_confidence(body_, side, evidence_);
-        if (confidence > least && confidence < most) return;
-      }
+    evidence_.arms[side] = {/*support=*/15.0,   /*gap=*/15.0,     /*bend_rad=*/0.1,
+                            /*sigma_rad=*/0.03, /*forwards=*/0.0, /*outwards=*/1.0};
+    for (Real disagreement = 0.0; disagreement < 5.0; disagreement += 0.01) {
+      for (ImageEvidence& image : evidence_.images)
+        image.disagreement[kWrist + side] = disagreement;
+      const Real confidence = direction_confidence(body_, side, evidence_);
+      if (confidence > least && confidence < most) return;
     }
     ADD_FAILURE() << "no arm is as sure as " << least << " to " << most;
   }
@@ -159,7 +175,8 @@ TEST_F(ToldDirections, AreNoneOfAHardlySureArmBesideAnUnsureOneThatIsMoreRaised)
 }
 
 TEST_F(ToldDirections, AreOfTheSureArmBesideAnUnsureOneThatIsMoreRaised) {
-  make_as_sure(0, 0.3, 0.7);
+  make_as_sure(0, 0.3, 0.5);
+  make_as_sure(1, 0.995, 1.0);
   EXPECT_EQ(sides(), std::vector<Side>{Side::kRight});
 }
 
@@ -241,6 +258,15 @@ TEST(PersonConfidence, MayBeLowerInCompany) {
   ASSERT_TRUE(doubtful);
   EXPECT_TRUE(doubtful->needs_company);
   EXPECT_FALSE(assess(doubtful_person(0.2, 0.5)));
+}
+
+TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
+  FittedBody doubtful = doubtful_person(0.5, 0.75), sure = standing_person();
+  for (FittedBody* fitted : {&doubtful, &sure}) fitted->evidence.sigma_m[kHead] = 10.0;
+  EXPECT_FALSE(assess(doubtful));
+  const auto told = assess(sure);
+  ASSERT_TRUE(told);
+  EXPECT_FALSE(told->pose[Joint::kHead].valid);
 }
 
 TEST(PersonConfidence, FallsWithADoubtfulHeadAndAnOddPosture) {

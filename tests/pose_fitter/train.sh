@@ -12,14 +12,15 @@ cd "$(dirname "$0")/../.."
 simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
 source tests/support/simulated_sets.sh
 
-# Directions come from people who point, also farther off than any recording; confidences of people from rooms too.
+# Directions come from people who point, also farther off than any recording, and at a desk.
+desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
 simulate c_pointing pointing stereo 160 701 --max-distance-m 5.2 --child-share 0.1
 simulate c_pointing2 pointing stereo 160 707 --max-distance-m 4.5
-simulate c_nohuman nohuman stereo 80 702
 simulate c_general general stereo 80 703 --child-share 0.1
 simulate c_multi multi stereo 60 704 --child-share 0.1
+simulate c_near_pointing pointing stereo 120 712 --min-distance-m 0.8 --max-distance-m 2.2
+simulate c_desk_pointing pointing stereo 80 713 "${desk[@]}"
 simulate c_depth_pointing pointing depth 60 705 --color
-simulate c_depth_nohuman nohuman depth 60 706 --color
 # Without colours the network of poses looks at surfaces.
 dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
 simulate c_dense_pointing pointing laser 120 709 --max-distance-m 5 "${dense[@]}"

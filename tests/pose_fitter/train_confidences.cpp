@@ -52,20 +52,6 @@ void append(Outcomes&& from, Outcomes& to) {
 
 bool is_visible(const JointEstimate& truth) { return truth.valid && truth.confidence > 0.5F; }
 
-/// An arm that points is in sight where the truth says so, though the hand may hide the elbow; any
-/// other one where its joints are.
-std::optional<Eigen::Vector3f> visible_arm_axis(const BodyPose& truth, Side side) {
-  for (const Pointing& pointing : truth.pointing) {
-    if (pointing.side != side) continue;
-    return pointing.confidence > 0.5F ? std::optional(pointing.direction) : std::nullopt;
-  }
-  const JointEstimate& shoulder = truth[on_side(Joint::kShoulderLeft, side)];
-  const JointEstimate& wrist = truth[on_side(Joint::kWristLeft, side)];
-  if (!shoulder.valid || !is_visible(truth[on_side(Joint::kElbowLeft, side)]) || !is_visible(wrist))
-    return std::nullopt;
-  return wrist.position_m - shoulder.position_m;
-}
-
 void add_joints(const FittedBody& fitted, const BodyPose& pose, const BodyPose& truth,
                 Outcomes& outcomes) {
   for (int i = 0; i < kJointCount; ++i) {
@@ -96,11 +82,12 @@ std::optional<bool> faces_right(const BodyPose& pose, const BodyPose& truth,
   return front->dot(*true_front) > 0.0F;
 }
 
-/// Only arms that point by the rule are asked how sure they are.
+/// Only arms that point by the rule are asked how sure they are. Hidden ones count too: what is
+/// told of them is nearly always another thing that was taken for an arm.
 void add_directions(const FittedBody& fitted, const BodyPose& pose, const BodyPose& truth,
                     const Stamp& stamp, Outcomes& outcomes) {
   for (const Pointing& pointing : find_pointing(pose, stamp.gravity.down, refined::kPointingRule)) {
-    const auto axis = visible_arm_axis(truth, pointing.side);
+    const auto axis = evaluate::true_arm_axis(truth, pointing.side);
     if (!axis) continue;
     const int side = static_cast<int>(pointing.side);
     const double error_rad = std::atan2(pointing.direction.cross(*axis).norm(),  //

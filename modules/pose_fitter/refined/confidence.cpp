@@ -25,20 +25,19 @@ Real surface_misfit(const Evidence& evidence) { return evidence.surface_cost / e
 
 /// How far off the image's joints the ones from `first` to before `end` stand in the mean, 0 to 1,
 /// those in sight counting more.
-Real image_disagreement(const ImageEvidence& image, int first, int end, int step = 1) {
+Real image_disagreement(const ImageEvidence& image, int first, int end) {
   Real sum = 0.0, weight = 1e-3;
-  for (int i = first; i < end; i += step) {
+  for (int i = first; i < end; ++i) {
     sum += image.visibility[i] * image.disagreement[i];
     weight += image.visibility[i];
   }
   return sum / weight;
 }
 /// How many of the joints from `first` to before `end` the image shows, in the mean.
-Real image_visibility(const ImageEvidence& image, int first, int end, int step = 1) {
+Real image_visibility(const ImageEvidence& image, int first, int end) {
   Real sum = 0.0;
-  int count = 0;
-  for (int i = first; i < end; i += step, ++count) sum += image.visibility[i];
-  return sum / count;
+  for (int i = first; i < end; ++i) sum += image.visibility[i];
+  return sum / (end - first);
 }
 
 /// Whether any network looked: the second never does alone.
@@ -99,8 +98,8 @@ DirectionFeatures direction_features(const BodyState& body, int side, const Evid
       odd_posture(evidence), std::min(1.0, surface_misfit(evidence)), arm.forwards,
       std::max(0.0, -arm.outwards), is_told(evidence) ? 1.0 : 0.0;
   for (const ImageEvidence& image : evidence.images) {
-    list, image_visibility(image, kShoulder + side, kHip, 2),
-        image_disagreement(image, kShoulder + side, kHip, 2);
+    for (int joint = kShoulder + side; joint < kHip; joint += 2)
+      list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint];
   }
   return features;
 }
