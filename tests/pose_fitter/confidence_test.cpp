@@ -202,16 +202,20 @@ FittedBody standing_person() {
   return *fitted;
 }
 
-/// The same with a head so doubtful and a posture so odd that the confidence lies between `least`
-/// and `most`.
+/// The same with a head so doubtful, a posture so odd and joints so unsure that the confidence lies
+/// between `least` and `most`.
 FittedBody doubtful_person(Real least, Real most) {
   FittedBody fitted = standing_person();
-  for (const Real prior_cost : {10.0, 20.0, 30.0, 50.0, 80.0}) {
-    fitted.evidence.prior_cost = prior_cost;
-    for (fitted.evidence.head_odds = 3.0; fitted.evidence.head_odds > -5.0;
-         fitted.evidence.head_odds -= 0.1) {
-      const Real confidence = person_confidence(fitted);
-      if (confidence > least && confidence < most) return fitted;
+  const auto sigma_m = fitted.evidence.sigma_m;
+  for (const Real unsure : {1.0, 2.0, 4.0, 8.0}) {
+    for (int i = 0; i < kPointCount; ++i) fitted.evidence.sigma_m[i] = unsure * sigma_m[i];
+    for (const Real prior_cost : {10.0, 20.0, 30.0, 50.0, 80.0}) {
+      fitted.evidence.prior_cost = prior_cost;
+      for (fitted.evidence.head_odds = 3.0; fitted.evidence.head_odds > -5.0;
+           fitted.evidence.head_odds -= 0.1) {
+        const Real confidence = person_confidence(fitted);
+        if (confidence > least && confidence < most) return fitted;
+      }
     }
   }
   ADD_FAILURE() << "no doubt between " << least << " and " << most;
@@ -254,10 +258,10 @@ TEST(PersonConfidence, MayBeLowerSoNearToACameraThatLegsAreOutOfSight) {
 }
 
 TEST(PersonConfidence, MayBeLowerInCompany) {
-  const auto doubtful = assess(doubtful_person(0.5, 0.75));
+  const auto doubtful = assess(doubtful_person(0.35, 0.5));
   ASSERT_TRUE(doubtful);
   EXPECT_TRUE(doubtful->needs_company);
-  EXPECT_FALSE(assess(doubtful_person(0.2, 0.5)));
+  EXPECT_FALSE(assess(doubtful_person(0.05, 0.35)));
 }
 
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {

@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   5300 simulated frames, 1.9 GB, about half an hour on one core; sets that are there stay
+#   SIMULATED_DIR   6800 simulated frames, 3 GB, about half an hour on one core; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -76,6 +76,20 @@ simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9
 simulate p_laser_nohuman4 nohuman laser 200 871
 simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"
 simulate p_nohuman5 nohuman stereo 200 873
+# At a desk, where legs are out of sight.
+simulate p_near_general general stereo 160 881 "${desk[@]}"
+simulate p_near_nohuman nohuman stereo 150 882 "${desk[@]}"
+simulate p_near_depth general depth 80 883 --color "${desk[@]}"
+simulate p_near_depth_nohuman nohuman depth 80 884 --color "${desk[@]}"
+# More before scanners, where the surface alone tells people from things.
+simulate p_few_pointing2 pointing laser 100 885 --max-distance-m 6 "${few[@]}"
+simulate p_wide_pointing pointing laser 100 886 --max-distance-m 5 "${wide[@]}"
+simulate p_few_general2 general laser 100 887 --max-distance-m 7 "${few[@]}" "${coats[@]}"
+simulate p_laser_multi2 multi laser 60 888 --child-share 0.15
+simulate p_dense_multi multi laser 60 889 "${dense[@]}"
+simulate p_dense_nohuman3 nohuman laser 200 890 "${dense[@]}"
+simulate p_laser_nohuman5 nohuman laser 200 891
+simulate p_few_nohuman2 nohuman laser 150 892 "${few[@]}"
 
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done

@@ -49,12 +49,13 @@ std::vector<std::vector<int>> sorted_by_feature(const Eigen::MatrixXf& features)
 
 class Boosting {
  public:
-  Boosting(const Cases& cases, const BoostingParams& params)
+  Boosting(const Cases& cases, const BoostingParams& params, unsigned seed)
       : cases_(cases),
         params_(params),
         order_(sorted_by_feature(cases.features)),
         log_odds_(Eigen::VectorXd::Zero(cases.features.rows())),
         derivatives_(static_cast<std::size_t>(cases.features.rows())),
+        random_(seed),
         node_of_(derivatives_.size()) {}
 
   Tree next_tree() {
@@ -149,9 +150,14 @@ class Boosting {
 }  // namespace
 
 std::vector<Tree> boost_trees(const Cases& cases, const BoostingParams& params) {
-  Boosting boosting(cases, params);
   std::vector<Tree> trees;
-  for (int k = 0; k < params.trees; ++k) trees.push_back(boosting.next_tree());
+  for (int row = 0; row < params.rows; ++row) {
+    Boosting boosting(cases, params, static_cast<unsigned>(row));
+    for (int k = 0; k < params.trees; ++k) {
+      trees.push_back(boosting.next_tree());
+      for (float& value : trees.back().value) value /= static_cast<float>(params.rows);
+    }
+  }
   return trees;
 }
 

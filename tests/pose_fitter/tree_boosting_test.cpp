@@ -48,6 +48,23 @@ TEST(TreeBoosting, TellsTheShareWhereNothingSetsTheCasesApart) {
   EXPECT_NEAR(1.0 / (1.0 + std::exp(-log_odds)), 0.25, 0.01);
 }
 
+TEST(TreeBoosting, IsTheMeanOfRowsThatDrawApart) {
+  BoostingParams params;
+  params.rows = 1;
+  const auto one = boost_trees(same_signs(500), params);
+  params.rows = 2;
+  const auto two = boost_trees(same_signs(500), params);
+
+  ASSERT_EQ(two.size(), 2 * one.size());
+  int alike = 0;
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    for (std::size_t leaf = 0; leaf < refined::Tree::kLeaves; ++leaf)
+      EXPECT_EQ(two[k].value[leaf], 0.5F * one[k].value[leaf]);
+    if (two[one.size() + k].threshold == one[k].threshold) ++alike;
+  }
+  EXPECT_LT(alike, static_cast<int>(one.size()) / 10);
+}
+
 TEST(TreeBoosting, DrawsTheSameForTheSameCases) {
   const auto once = boost_trees(same_signs(500), BoostingParams{});
   const auto again = boost_trees(same_signs(500), BoostingParams{});
