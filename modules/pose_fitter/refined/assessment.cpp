@@ -19,9 +19,9 @@ constexpr Real kLeastArmConfidence = 0.1;
 /// A body less sure than this is no person. Of the bodies that the trees were not trained on three
 /// to nine of 764 things and 492 to 507 of 586 people lie over it.
 constexpr Real kLeastPersonConfidence = 0.75;
-/// Beside people who are sure (company.hpp): of 320 simulated frames of groups 21 people and no
+/// Beside people who are sure (company.hpp): of 320 simulated frames of groups 20 people and no
 /// thing lie between this and 0.5, in 1700 frames of one person two things; between 0.15 and this
-/// 10 people and 13 things.
+/// 11 people and 14 things.
 constexpr Real kLeastAccompaniedConfidence = 0.35;
 /// Before a scanner the surface alone speaks: of 630 simulated rooms five got a person at 0.8, two
 /// at 0.85, where three of 940 people are lost; and two things of a real street lie below.
