@@ -1,0 +1,105 @@
+#include "modules/pose_fitter/refined/cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/pose_fitter/refined_body.hpp"
+
+namespace limbcast::pose_fitter {
+namespace {
+
+using testing::kDegree;
+
+TEST(FrontTerm, MindsATrunkTurnedAgainstTheFace) {
+  const Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  RefinedParams params;
+  params.front_cost_per_log_odds = 4.0;
+  auto observation = refined::observe(segment, testing::stamp(), params);
+  ASSERT_TRUE(observation);
+  const auto cost_at = [&](double yaw_deg) {
+    return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
+  };
+  EXPECT_EQ(cost_at(0.0), 0.0);
+  EXPECT_EQ(cost_at(180.0), 0.0);
+
+  observation->face = {2.0F, 0.0F};
+  EXPECT_NEAR(cost_at(0.0), 0.0, 1e-6);
+  EXPECT_NEAR(cost_at(90.0), 4.0, 1e-6);
+  EXPECT_NEAR(cost_at(180.0), 8.0, 1e-6);
+
+  observation->face = {-2.0F, 0.0F};
+  EXPECT_EQ(cost_at(0.0), 0.0);
+  EXPECT_EQ(cost_at(180.0), 0.0);
+
+  // Turned by 90 degrees from facing the camera, a body looks to the image's right.
+  ASSERT_GT(testing::standing_body(2.5, 90.0 * kDegree).front().x(), 0.9);
+  observation->face = {0.0F, 1.5F};
+  EXPECT_NEAR(cost_at(90.0), 0.0, 1e-6);
+  EXPECT_NEAR(cost_at(0.0), 3.0, 1e-6);
+  EXPECT_NEAR(cost_at(-90.0), 6.0, 1e-6);
+}
+
+TEST(FrontTerm, TellsHowFarAFaceAgreesWithAFront) {
+  auto observation = refined::observe(testing::seen(testing::standing_body(2.5, 0.0)),
+                                      testing::stamp(), RefinedParams{});
+  ASSERT_TRUE(observation);
+  const auto agreement_at = [&](double yaw_deg) {
+    return face_agreement(testing::standing_body(2.5, yaw_deg * kDegree).front(), *observation);
+  };
+  EXPECT_EQ(agreement_at(0.0), 0.0);
+  // To which side it looks tells nothing: heads turn.
+  observation->face = {2.0F, 1.5F};
+  EXPECT_NEAR(agreement_at(0.0), 2.0, 1e-6);
+  EXPECT_NEAR(agreement_at(90.0), 0.0, 1e-6);
+  EXPECT_NEAR(agreement_at(180.0), -2.0, 1e-6);
+  observation->face = {-2.0F, 0.0F};
+  EXPECT_EQ(agreement_at(180.0), 0.0);
+}
+
+TEST(FrontTerm, TellsWhoIsSeenFromTheSide) {
+  const auto observation = refined::observe(testing::seen(testing::standing_body(2.5, 0.0)),
+                                            testing::stamp(), RefinedParams{});
+  ASSERT_TRUE(observation);
+  const auto sideways_at = [&](double yaw_deg) {
+    return sideways(testing::standing_body(2.5, yaw_deg * kDegree).front(), *observation);
+  };
+  for (const double front_or_back : {0.0, 180.0})
+    EXPECT_NEAR(sideways_at(front_or_back), 0.0, 1e-6);
+  for (const double side : {-90.0, 90.0}) EXPECT_NEAR(sideways_at(side), 1.0, 1e-6);
+}
+
+TEST(FrontTerm, MindsNoTrunkWhoseSurfaceAloneWasLookedAt) {
+  const RefinedParams params;
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.image_poses = {testing::in_image(testing::standing_body(2.5, 90.0 * kDegree))};
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);
+}
+
+TEST(FrontTerm, MindsATrunkTurnedAgainstTheImage) {
+  const RefinedParams params;
+  const double most = params.front_cost_per_log_odds * params.image_side_log_odds;
+  const auto cost_at = [&](double yaw_deg, double image_yaw_deg) {
+    Segment segment = testing::colored(testing::seen(testing::standing_body(2.5, 0.0)));
+    segment.image_poses = {testing::in_image(testing::standing_body(2.5, image_yaw_deg * kDegree))};
+    const auto observation = refined::observe(segment, testing::stamp(), params);
+    return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
+  };
+  EXPECT_NEAR(cost_at(90.0, 90.0), 0.0, 0.01);
+  EXPECT_NEAR(cost_at(0.0, 90.0), 0.5 * most, 0.01 * most);
+  EXPECT_NEAR(cost_at(-90.0, 90.0), most, 0.01 * most);
+  EXPECT_NEAR(cost_at(-135.0, 45.0), 0.5 * most, 0.01 * most);
+  // The image term weighs left against right.
+  EXPECT_NEAR(cost_at(180.0, 0.0), 0.0, 0.01 * most);
+}
+
+TEST(FrontTerm, MindsNoTrunkWhereTheImageTellsNoSides) {
+  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  segment.image_poses = {testing::in_image(testing::standing_body(2.5, 90.0 * kDegree))};
+  for (ImageJoint& joint : segment.image_poses.front().joints) joint.visibility = 0.0F;
+  const RefinedParams params;
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);
+}
+
+}  // namespace
+}  // namespace limbcast::pose_fitter
