@@ -16,6 +16,8 @@ struct EncodedImage {
   int channels = 0;           ///< 1 grey, 3 colour
   int bits = 8;               ///< of one channel, 8 or 16
   std::vector<std::uint8_t> bytes;
+
+  bool empty() const { return bytes.empty(); }
 };
 
 /// Reads a JPEG or PNG file without decoding its pixels: kind and size come from its header, its

@@ -220,7 +220,11 @@ Recording find_recording(const std::string& folder, const FilePair& pair,
     throw InputError(folder + ": has no NAME_" + pair.first + " and NAME_" + pair.second +
                      " pictures (jpg or png); give another folder");
   }
-  for (const auto& [name, frame] : files) check_partners(frame, name, folder, pair);
+  const bool has_first = std::any_of(
+      files.begin(), files.end(), [](const auto& file) { return !file.second.first_path.empty(); });
+  if (has_first || !params.first_is_optional) {
+    for (const auto& [name, frame] : files) check_partners(frame, name, folder, pair);
+  }
   return with_times(files, folder, params);
 }
 

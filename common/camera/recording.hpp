@@ -27,8 +27,8 @@ struct FilePair {
 /// One frame of a folder: its times and the paths of its two files.
 struct RecordedFrame {
   FrameTime time;
-  std::string first_path, second_path;
-  std::string truth_path;  ///< NAME_gt.json, empty where there is none
+  std::string first_path, second_path;  ///< first: empty where there is none
+  std::string truth_path;               ///< NAME_gt.json, empty where there is none
 };
 
 struct Recording {
@@ -40,6 +40,8 @@ struct Recording {
 struct RecordingParams {
   double rate_hz = 10.0;  ///< of a folder without timestamps.csv: utime = start + index / rate
   std::int64_t start_utime = 0;  ///< of its first frame [us]
+  /// No frame needs the first of its two files where none has one.
+  bool first_is_optional = false;
 };
 
 /// Finds the frames NAME_first.EXT + NAME_second.EXT (jpg, jpeg or png) in `folder`, ordered by

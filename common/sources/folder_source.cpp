@@ -5,11 +5,20 @@
 #include "common/human_model/ground_truth_json.hpp"
 
 namespace limbcast {
+namespace {
+
+Recording find_frames(const std::string& folder, const PairFormat& format, RecordingParams params) {
+  params.first_is_optional = format.first_is_optional;
+  return find_recording(folder, format.names, params);
+}
+
+}  // namespace
+
 FolderSource::FolderSource(std::string folder, PairFormat format, const FolderParams& params)
     : folder_(std::move(folder)),
       format_(std::move(format)),
       loop_(params.loop),
-      recording_(find_recording(folder_, format_.names, params.recording)) {
+      recording_(find_frames(folder_, format_, params.recording)) {
   round_duration_us_ = round_duration_us(recording_, params.recording.rate_hz);
 }
 
@@ -22,7 +31,7 @@ std::optional<FramePair> FolderSource::next() {
 
 FramePair FolderSource::read(const RecordedFrame& recorded) const {
   FramePair frame;
-  frame.first = read_encoded_image(recorded.first_path);
+  if (!recorded.first_path.empty()) frame.first = read_encoded_image(recorded.first_path);
   frame.second = read_encoded_image(recorded.second_path);
   check_pair(format_, frame.first, frame.second, folder_ + "/" + recorded.time.name);
   frame.first =

@@ -37,33 +37,49 @@ CameraSettings calibrated(CameraSettings settings, int width, int height) {
   return settings;
 }
 
-std::unique_ptr<PairSource> open_cameras(const SourceOptions& options, const PairFormat& format) {
-  if (options.second_source.empty()) {
-    if (format.second_is_depth) {
-      throw InputError(options.source +
-                       ": is one camera; give the depth camera with --source-depth");
-    }
-    return std::make_unique<SideBySideSource>(
-        opener(options.source, calibrated(options.camera, 2 * format.width, format.height)),
-        capture_params(options, options.source), format);
-  }
+OpenReader opener_of_second(const SourceOptions& options, const PairFormat& format) {
   const bool own_size = format.second_width > 0;
-  CameraSettings second_settings =
+  CameraSettings settings =
       calibrated(options.camera, own_size ? format.second_width : format.width,
                  own_size ? format.second_height : format.height);
-  second_settings.raw_depth = format.second_is_depth;
+  settings.raw_depth = format.second_is_depth;
   // Depth has formats of its own.
-  if (format.second_is_depth) second_settings.format.clear();
-  return std::make_unique<TwoCameraSource>(
-      opener(options.source, calibrated(options.camera, format.width, format.height)),
-      capture_params(options, options.source), opener(options.second_source, second_settings),
-      capture_params(options, options.second_source), format,
-      std::llround(1000.0 * options.pair_tolerance_ms));
+  if (format.second_is_depth) settings.format.clear();
+  return opener(options.second_source, settings);
+}
+
+std::unique_ptr<PairSource> open_cameras(const SourceOptions& options, const PairFormat& format) {
+  if (!options.second_source.empty()) {
+    return std::make_unique<TwoCameraSource>(
+        opener(options.source, calibrated(options.camera, format.width, format.height)),
+        capture_params(options, options.source), opener_of_second(options, format),
+        capture_params(options, options.second_source), format,
+        std::llround(1000.0 * options.pair_tolerance_ms));
+  }
+  if (format.second_is_depth) {
+    throw InputError(options.source +
+                     ": is one camera; give the depth camera with --source-depth, and leave "
+                     "--source out where there is no colour camera");
+  }
+  return std::make_unique<SideBySideSource>(
+      opener(options.source, calibrated(options.camera, 2 * format.width, format.height)),
+      capture_params(options, options.source), format);
+}
+
+std::unique_ptr<PairSource> open_depth_alone(const SourceOptions& options,
+                                             const PairFormat& format) {
+  if (!is_camera(options.second_source)) {
+    throw InputError(options.second_source +
+                     ": is no camera; give a folder of depth pictures with --source");
+  }
+  return std::make_unique<DepthAloneSource>(opener_of_second(options, format),
+                                            capture_params(options, options.second_source), format);
 }
 
 }  // namespace
 
 std::unique_ptr<PairSource> open_source(const SourceOptions& options, const PairFormat& format) {
+  if (options.source.empty() && format.first_is_optional) return open_depth_alone(options, format);
   if (is_camera(options.source)) return open_cameras(options, format);
   const double rate_hz = options.rate_hz > 0.0 ? options.rate_hz : kDefaultRate_hz;
   if (fs::is_directory(options.source)) {

@@ -28,8 +28,8 @@ struct SourceOptions {
 inline constexpr double kDefaultRate_hz = 10.0;
 
 /// Opens the source that `options.source` names: a folder, a video (one that holds both images side
-/// by side, or two), or cameras (one side by side, or two). Throws InputError where that is not
-/// possible.
+/// by side, or two), or cameras (one side by side, or two); where none is named and the first image
+/// is optional, the second camera alone. Throws InputError where that is not possible.
 std::unique_ptr<PairSource> open_source(const SourceOptions& options, const PairFormat& format);
 
 }  // namespace limbcast

@@ -20,9 +20,14 @@ void check_size(int width, int height, const EncodedImage& image, const std::str
 
 void check_pair(const PairFormat& format, const EncodedImage& first, const EncodedImage& second,
                 const std::string& where) {
-  check_size(format.width, format.height, first, format.names.first, where);
+  const bool second_alone = first.empty() && format.first_is_optional;
+  if (!second_alone) {
+    check_size(format.width, format.height, first, format.names.first, where);
+  }
   if (format.second_width > 0) {
     check_size(format.second_width, format.second_height, second, format.names.second, where);
+  } else if (second_alone) {
+    check_size(format.width, format.height, second, format.names.second, where);
   } else if (first.width != second.width || first.height != second.height) {
     throw InputError(where + ": the " + format.names.first + " image is " +
                      size_text(first.width, first.height) + ", the " + format.names.second +
@@ -37,6 +42,7 @@ void check_pair(const PairFormat& format, const EncodedImage& first, const Encod
 }
 
 EncodedImage coded_for_sending(EncodedImage image, int jpeg_quality, const std::string& where) {
+  if (image.empty()) return image;
   const bool is_depth = image.bits == 16 && image.channels == 1;
   if (image.format == ImageFormat::kJpeg || is_depth || (jpeg_quality == 0 && image.bits == 8)) {
     return image;
@@ -45,6 +51,7 @@ EncodedImage coded_for_sending(EncodedImage image, int jpeg_quality, const std::
 }
 
 EncodedImage coded_for_sending(const cv::Mat& pixels, int jpeg_quality) {
+  if (pixels.empty()) return {};
   if (pixels.depth() == CV_16U || jpeg_quality == 0) return encode_png(pixels);
   return encode_jpeg(pixels, jpeg_quality);
 }

@@ -16,7 +16,7 @@ namespace limbcast {
 /// What a sensor that takes two images at once gives: left and right, or colour and depth.
 struct FramePair {
   Stamp stamp;
-  EncodedImage first, second;
+  EncodedImage first, second;      ///< first: empty of a depth camera without colour
   std::optional<BodyPoses> truth;  ///< where a recording holds it
 };
 
@@ -29,12 +29,13 @@ struct PairFormat {
   std::string frame;             ///< Stamp::frame
   int jpeg_quality = 95;  ///< of pictures that are no JPEG yet, 1 to 100; 0: PNG, without loss
   int second_width = 0, second_height = 0;  ///< of the second image [px]; 0: as the first
+  bool first_is_optional = false;           ///< a depth camera may have no colour camera beside it
 };
 
 using PairSource = FrameSource<FramePair>;
 
-/// Checks that both pictures have the size of the calibration and the kind that the sensor gives.
-/// `where` names them in errors.
+/// Checks that both pictures have the size of the calibration and the kind that the sensor gives;
+/// an empty one that may be absent has none. `where` names them in errors.
 void check_pair(const PairFormat& format, const EncodedImage& first, const EncodedImage& second,
                 const std::string& where);
 

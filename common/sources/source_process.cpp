@@ -53,11 +53,15 @@ void wait_until(Pacer::Clock::time_point due, lcm_io::Module& module) {
   }
 }
 
-void require_input(const SourceProcessOptions& options, const std::string& program) {
-  for (const auto& [key, value] : {std::pair("source", &options.source.source),
-                                   std::pair("calibration", &options.calibration)}) {
+void require_input(const SourceProcessOptions& options, const std::string& program,
+                   bool second_will_do) {
+  const SourceOptions& cameras = options.source;
+  const bool second_alone = second_will_do && !cameras.second_source.empty();
+  for (const auto& [key, value] :
+       {std::pair("source", second_alone ? &cameras.second_source : &cameras.source),
+        std::pair("calibration", &options.calibration)}) {
     // A log carries the calibration with the images.
-    if (key == std::string("calibration") && is_lcm_log(options.source.source)) continue;
+    if (key == std::string("calibration") && is_lcm_log(cameras.source)) continue;
     if (value->empty()) {
       throw config::UsageError(std::string("--") + key + " is missing; see " + program + " --help");
     }

@@ -38,8 +38,10 @@ void declare_cameras(config::Section& section, SourceOptions& options);
 void declare(config::Section& section, SourceProcessOptions& options,
              const std::string& second_key);
 
-/// Throws config::UsageError unless source and, for all but a log, calibration are given.
-void require_input(const SourceProcessOptions& options, const std::string& program);
+/// Throws config::UsageError unless source and, for all but a log, calibration are given. With
+/// `second_will_do` a second camera alone is enough.
+void require_input(const SourceProcessOptions& options, const std::string& program,
+                   bool second_will_do = false);
 
 /// Throws config::UsageError for a log that would never end.
 void require_end(const SourceProcessOptions& options);

@@ -27,6 +27,7 @@ depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibr
                           const std::optional<DepthRegistration>& registration) {
   depth_images_t message{};
   message.stamp = lcm_io::to_message(frame.stamp);
+  if (frame.first.empty()) message.stamp.frame = frame.stamp.sensor + "/depth_optical";
   message.lens = lcm_io::to_message(calibration.color);
   message.depth_scale_m = calibration.depth_scale_m;
   message.mounting = lcm_io::to_message(calibration.mounting);
@@ -52,6 +53,7 @@ void run(const Options& options, const config::CommonOptions& common) {
                     sensor,
                     sensor + "/color_optical",
                     options.process.source.jpeg_quality};
+  format.first_is_optional = true;
   std::optional<DepthRegistration> registration;
   if (calibration.depth_camera) {
     registration.emplace(calibration);
@@ -77,7 +79,7 @@ int main(int argc, char** argv) {
                           "publishes colour and depth of a depth camera, live or recorded");
     parser.add(section);
     if (!parser.parse(argc, argv)) return;
-    require_input(options.process, "limbcast-depth-camera");
+    require_input(options.process, "limbcast-depth-camera", /*second_will_do=*/true);
     depth_camera::run(options, parser.common());
   });
 }

@@ -117,6 +117,32 @@ TEST_F(DepthCameraProgram, TakesColorAndDepthFromTwoPipelines) {
   EXPECT_GT(largest, 255.0);  // white bars: all 16 bits came through
 }
 
+TEST_F(DepthCameraProgram, NeedsNoColorCamera) {
+  const RunResult result =
+      write_log({"--source-depth",
+                 "gst:videotestsrc num-buffers=5 is-live=true ! "
+                 "video/x-raw,format=GRAY16_LE,width=64,height=48,framerate=20/1",
+                 "--reopen=false"});
+  if (result.output.find("cannot be started") != std::string::npos)
+    GTEST_SKIP() << "gstreamer1.0-plugins-base is absent";
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto events = events_of(log_);
+  ASSERT_FALSE(events.empty());
+  const auto frame = lcm_io::from_message(lcm_io::decode<depth_images_t>(events[0].data));
+  EXPECT_TRUE(frame.images.color.empty());
+  EXPECT_EQ(frame.images.depth.size(), cv::Size(kWidth, kHeight));
+  EXPECT_EQ(frame.images.stamp.frame, "depth/depth_optical");
+}
+
+TEST_F(DepthCameraProgram, SendsAFolderWithoutColor) {
+  std::filesystem::remove(folder_ + "/a_color.jpg");
+  const RunResult result = write_log({"--source", folder_});
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto frame = lcm_io::from_message(lcm_io::decode<depth_images_t>(events_of(log_)[0].data));
+  EXPECT_TRUE(frame.images.color.empty());
+  EXPECT_EQ(cv::norm(frame.images.depth, depth_ramp(), cv::NORM_INF), 0.0);
+}
+
 TEST_F(DepthCameraProgram, EndsWithCode2WithoutItsDevices) {
   EXPECT_THAT(error({"--source", "/dev/video987", "--source-depth", "/dev/video986"}),
               HasSubstr("/dev/video987: No such file or directory; is the camera plugged in?"));
@@ -129,6 +155,8 @@ TEST_F(DepthCameraProgram, EndsWithCode2WithoutItsDevices) {
 TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
   EXPECT_THAT(error({"--source", "/dev/video0"}), HasSubstr("--source-depth"));
+  EXPECT_THAT(error({"--source-depth", folder_}),
+              HasSubstr("is no camera; give a folder of depth pictures with --source"));
   test::write_bytes(folder_ + "/a_depth.png",
                     encode_png(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(9))));
   EXPECT_THAT(error({"--source", folder_}), HasSubstr("one of 16 bit is needed"));

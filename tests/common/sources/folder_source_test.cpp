@@ -75,6 +75,27 @@ TEST_F(FolderSourceTest, KeepsEveryDepthValue) {
   EXPECT_EQ(cv::norm(decode_image(frame->second, "test"), depth, cv::NORM_INF), 0.0);
 }
 
+TEST_F(FolderSourceTest, GivesDepthAloneWhereNoFrameHasColour) {
+  const EncodedImage depth = encode_png(cv::Mat(48, 64, CV_16UC1, cv::Scalar(7000)));
+  for (const char* name : {"a_depth.png", "b_depth.png"}) write_bytes(folder_ / name, depth);
+  PairFormat format = depth_format();
+  EXPECT_THAT(error_of<InputError>([&] { FolderSource(folder_.path(), format, {}); }),
+              HasSubstr("has no partner a_color"));
+
+  format.first_is_optional = true;
+  FolderSource source(folder_.path(), format, {});
+  const auto frame = source.next();
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->first.empty());
+  EXPECT_EQ(frame->second.bytes, depth.bytes);
+  EXPECT_TRUE(source.next());
+
+  // A folder that lost a file is no recording without colour.
+  write_bytes(folder_ / "a_color.jpg", encode_jpeg(grey_picture(64, 48, 50), 90));
+  EXPECT_THAT(error_of<InputError>([&] { FolderSource(folder_.path(), format, {}); }),
+              HasSubstr("has no partner b_color"));
+}
+
 TEST_F(FolderSourceTest, RefusesDepthOf8Bit) {
   write_bytes(folder_ / "a_color.jpg", encode_jpeg(grey_picture(64, 48, 50), 90));
   write_bytes(folder_ / "a_depth.png", encode_png(cv::Mat(48, 64, CV_8UC1, cv::Scalar(7))));

@@ -14,6 +14,7 @@ namespace limbcast {
 namespace {
 
 using std::chrono::milliseconds;
+using test::depth_format;
 using test::error_of;
 using test::grey_picture;
 using test::level_of;
@@ -175,12 +176,65 @@ TEST(SideBySideSourceTest, RefusesPicturesOfTheWrongSize) {
               HasSubstr("cam: the left image is 50x48, the calibration is for 64x48"));
 }
 
+TEST(SideBySideSourceTest, WaitsForFittingPicturesWhereTheCameraComesBackWithOthers) {
+  PlayedCamera camera;
+  SideBySideSource source(camera.opener(), params_of("cam", true), stereo_format());
+  camera.push({1, grey_picture(128, 48, 1)});
+  ASSERT_TRUE(wait_for_frame(source));
+
+  camera.end();
+  camera.push({2, grey_picture(100, 48, 1)});
+  const auto misfits = [&] {
+    return source.problem().find("the left image is 50x48") != std::string::npos;
+  };
+  while (!misfits()) ASSERT_FALSE(source.next());
+  EXPECT_EQ(source.statistics()->dropped, 1);
+
+  camera.push({3, grey_picture(128, 48, 1)});
+  const auto frame = wait_for_frame(source);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp.utime, 3);
+  EXPECT_EQ(source.problem(), "");
+}
+
 TEST(SideBySideSourceTest, RefusesPicturesOfOddWidth) {
   PlayedCamera camera;
   camera.push({1, grey_picture(101, 48, 1)});
   SideBySideSource source(camera.opener(), params_of("cam", false), stereo_format());
   EXPECT_THAT(error_of<InputError>([&] { wait_for_frame(source); }),
               HasSubstr("width 101 do not hold two cameras"));
+}
+
+PairFormat depth_alone_format() {
+  PairFormat format = depth_format();
+  format.first_is_optional = true;
+  return format;
+}
+
+TEST(DepthAloneSourceTest, GivesEveryDepthValueWithoutColour) {
+  PlayedCamera camera;
+  const cv::Mat depth(48, 64, CV_16UC1, cv::Scalar(40'000));
+  camera.push({123, {depth}});
+  DepthAloneSource source(camera.opener(), params_of("cam", false), depth_alone_format());
+
+  const auto frame = wait_for_frame(source);
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp.utime, 123);
+  EXPECT_TRUE(frame->first.empty());
+  EXPECT_EQ(cv::norm(decode_image(frame->second, "test"), depth, cv::NORM_INF), 0.0);
+}
+
+TEST(DepthAloneSourceTest, RefusesWhatIsNoDepthOfTheCalibratedSize) {
+  const auto error_with = [](const cv::Mat& pixels) {
+    PlayedCamera camera;
+    camera.push({1, {pixels}});
+    DepthAloneSource source(camera.opener(), params_of("cam", false), depth_alone_format());
+    return error_of<InputError>([&] { wait_for_frame(source); });
+  };
+  EXPECT_THAT(error_with(cv::Mat(24, 32, CV_16UC1, cv::Scalar(1))),
+              HasSubstr("cam: the depth image is 32x24, the calibration is for 64x48"));
+  EXPECT_THAT(error_with(grey_picture(64, 48, 1)), HasSubstr("one of 16 bit is needed"));
 }
 
 class TwoCameras : public ::testing::Test {
