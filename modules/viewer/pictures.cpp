@@ -31,10 +31,28 @@ cv::Mat missing(const std::string& what) {
   return picture;
 }
 
-/// The colours of an organised cloud as an image; dark where it has none.
-cv::Mat camera_image(const Cloud& cloud) {
+/// 0 to 1: where between the two ends of the colours a distance is.
+float closeness(float distance_m) {
+  const float share = (1.0F / distance_m - 1.0F / kFarthest) / (1.0F / kNearest - 1.0F / kFarthest);
+  return std::clamp(share, 0.0F, 1.0F);
+}
+
+/// What stands in for the image of a sensor without colours: grey, the nearer the brighter.
+cv::Mat depth_in_grey(const Cloud& cloud) {
+  constexpr float kFarGrey = 50.0F, kNearGrey = 230.0F;
   cv::Mat image = dark({cloud.width, cloud.height});
-  if (cloud.colors.empty()) return image;
+  for (std::size_t i = 0; i < cloud.points_m.size(); ++i) {
+    if (cloud.is_hole(i)) continue;
+    const float grey = kFarGrey + (kNearGrey - kFarGrey) * closeness(cloud.points_m[i].z());
+    image.ptr<cv::Vec3b>()[i] = cv::Vec3b::all(cv::saturate_cast<std::uint8_t>(grey));
+  }
+  return image;
+}
+
+/// The colours of an organised cloud as an image, or its depths where it has none.
+cv::Mat camera_image(const Cloud& cloud) {
+  if (cloud.colors.empty()) return depth_in_grey(cloud);
+  cv::Mat image = dark({cloud.width, cloud.height});
   for (int v = 0; v < cloud.height; ++v) {
     for (int u = 0; u < cloud.width; ++u) {
       const Bgr& color = cloud.colors[static_cast<std::size_t>(v) * cloud.width + u];
@@ -82,12 +100,6 @@ void mark_seeds(cv::Mat& image, const Viewpoint& view, const Segments& segments)
       draw_text(image, reason, place + cv::Point(8, 4), 0.35, cv::Scalar::all(200));
     }
   }
-}
-
-/// 0 to 1: where between the two ends of the colours a distance is.
-float closeness(float distance_m) {
-  const float share = (1.0F / distance_m - 1.0F / kFarthest) / (1.0F / kNearest - 1.0F / kFarthest);
-  return std::clamp(share, 0.0F, 1.0F);
 }
 
 /// The colours with their distances, along the left border.

@@ -156,6 +156,21 @@ TEST(Pictures, AFrameWithNobodyShowsTheImage) {
       0.0);
 }
 
+TEST(Pictures, ShowDepthInGreyWhereTheSensorSeesNoColours) {
+  ViewFrame frame = whole_frame();
+  frame.poses->persons.clear();
+  frame.cloud->colors.clear();
+  Cloud& cloud = *frame.cloud;
+  cloud.points_m[60 * 160 + 100] *= 0.5F;
+  cloud.points_m[60 * 160 + 101].setZero();
+  const cv::Mat picture = draw_skeleton(frame);
+  const cv::Vec3b far = pixel(picture, 99, 60), near = pixel(picture, 100, 60),
+                  hole = pixel(picture, 101, 60);
+  EXPECT_EQ(far, cv::Vec3b::all(far[0]));
+  EXPECT_GT(near[0], far[0]);
+  EXPECT_LT(hole[0], far[0]);
+}
+
 TEST(Pictures, WorkWhateverIsMissing) {
   for (int missing = 0; missing < 16; ++missing) {
     ViewFrame frame = whole_frame();
