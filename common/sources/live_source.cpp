@@ -62,18 +62,10 @@ std::optional<SourceStatistics> OneCameraSource::statistics() const {
   return SourceStatistics{capture.dropped + left_out(), 0, capture.reopened};
 }
 
-SideBySideSource::SideBySideSource(OpenReader open, const LiveCaptureParams& params,
-                                   PairFormat format)
-    : OneCameraSource(std::move(open), params, std::move(format)) {}
-
 CapturedPair SideBySideSource::pair_of(const CapturedFrame& frame) const {
   auto [first, second] = split_side_by_side(plain_pixels(frame.picture, name()), name());
   return {frame.utime, {first}, {second}};
 }
-
-DepthAloneSource::DepthAloneSource(OpenReader open, const LiveCaptureParams& params,
-                                   PairFormat format)
-    : OneCameraSource(std::move(open), params, std::move(format)) {}
 
 CapturedPair DepthAloneSource::pair_of(const CapturedFrame& frame) const {
   return {frame.utime, {}, frame.picture};

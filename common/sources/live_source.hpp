@@ -40,15 +40,14 @@ class LivePairSource : public PairSource {
 /// One camera: a picture holds all that there is of a frame.
 class OneCameraSource : public LivePairSource {
  public:
+  OneCameraSource(OpenReader open, const LiveCaptureParams& params, PairFormat format);
+
   std::optional<FramePair> next() override;
   bool ended() const override { return capture_.ended(); }
   std::optional<SourceStatistics> statistics() const override;
 
- protected:
-  OneCameraSource(OpenReader open, const LiveCaptureParams& params, PairFormat format);
-  virtual CapturedPair pair_of(const CapturedFrame& frame) const = 0;
-
  private:
+  virtual CapturedPair pair_of(const CapturedFrame& frame) const = 0;
   std::string capture_problem() const override { return capture_.statistics().problem; }
 
   LiveCapture capture_;
@@ -57,7 +56,7 @@ class OneCameraSource : public LivePairSource {
 /// Both images in one picture, side by side.
 class SideBySideSource : public OneCameraSource {
  public:
-  SideBySideSource(OpenReader open, const LiveCaptureParams& params, PairFormat format);
+  using OneCameraSource::OneCameraSource;
   std::string description() const override { return name() + " (live, side by side)"; }
 
  private:
@@ -67,7 +66,7 @@ class SideBySideSource : public OneCameraSource {
 /// A depth camera that has no colour camera beside it: the first image is empty.
 class DepthAloneSource : public OneCameraSource {
  public:
-  DepthAloneSource(OpenReader open, const LiveCaptureParams& params, PairFormat format);
+  using OneCameraSource::OneCameraSource;
   std::string description() const override { return name() + " (live, depth without colour)"; }
 
  private:

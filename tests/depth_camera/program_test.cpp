@@ -98,15 +98,21 @@ TEST_F(DepthCameraProgram, RefusesDepthOfAnotherSizeThanItsCalibrations) {
               HasSubstr("the depth image is 64x48, the calibration is for 32x24"));
 }
 
+std::string pipeline(const std::string& format) {
+  return "gst:videotestsrc num-buffers=20 is-live=true ! video/x-raw,width=64,height=48,"
+         "framerate=20/1" +
+         format;
+}
+const std::string kColorPipeline = pipeline(""), kDepthPipeline = pipeline(",format=GRAY16_LE");
+
+bool lacks_plugins(const RunResult& result) {
+  return result.output.find("cannot be started") != std::string::npos;
+}
+
 TEST_F(DepthCameraProgram, TakesColorAndDepthFromTwoPipelines) {
-  const std::string size = "width=64,height=48,framerate=20/1";
-  const RunResult result = write_log(
-      {"--source", "gst:videotestsrc num-buffers=20 is-live=true ! video/x-raw," + size,
-       "--source-depth",
-       "gst:videotestsrc num-buffers=20 is-live=true ! video/x-raw,format=GRAY16_LE," + size,
-       "--pair-tolerance-ms", "40", "--reopen=false"});
-  if (result.output.find("cannot be started") != std::string::npos)
-    GTEST_SKIP() << "gstreamer1.0-plugins-base is absent";
+  const RunResult result = write_log({"--source", kColorPipeline, "--source-depth", kDepthPipeline,
+                                      "--pair-tolerance-ms", "40", "--reopen=false"});
+  if (lacks_plugins(result)) GTEST_SKIP() << "gstreamer1.0-plugins-base is absent";
   ASSERT_EQ(result.exit_code, 0) << result.output;
   const auto events = events_of(log_);
   ASSERT_FALSE(events.empty());
@@ -118,13 +124,8 @@ TEST_F(DepthCameraProgram, TakesColorAndDepthFromTwoPipelines) {
 }
 
 TEST_F(DepthCameraProgram, NeedsNoColorCamera) {
-  const RunResult result =
-      write_log({"--source-depth",
-                 "gst:videotestsrc num-buffers=5 is-live=true ! "
-                 "video/x-raw,format=GRAY16_LE,width=64,height=48,framerate=20/1",
-                 "--reopen=false"});
-  if (result.output.find("cannot be started") != std::string::npos)
-    GTEST_SKIP() << "gstreamer1.0-plugins-base is absent";
+  const RunResult result = write_log({"--source-depth", kDepthPipeline, "--reopen=false"});
+  if (lacks_plugins(result)) GTEST_SKIP() << "gstreamer1.0-plugins-base is absent";
   ASSERT_EQ(result.exit_code, 0) << result.output;
   const auto events = events_of(log_);
   ASSERT_FALSE(events.empty());
