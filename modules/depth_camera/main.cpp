@@ -27,7 +27,8 @@ depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibr
                           const std::optional<DepthRegistration>& registration) {
   depth_images_t message{};
   message.stamp = lcm_io::to_message(frame.stamp);
-  if (frame.first.empty()) message.stamp.frame = frame.stamp.sensor + "/depth_optical";
+  const bool depth_alone = frame.first.empty() && !registration;
+  if (depth_alone) message.stamp.frame = frame.stamp.sensor + "/depth_optical";
   message.lens = lcm_io::to_message(calibration.color);
   message.depth_scale_m = calibration.depth_scale_m;
   message.mounting = lcm_io::to_message(calibration.mounting);

@@ -92,6 +92,21 @@ TEST_F(DepthCameraProgram, RegistersDepthToColorWhereTheCalibrationTellsHow) {
   EXPECT_EQ(frame.images.depth.at<std::uint16_t>(24, 63), 0);
 }
 
+TEST_F(DepthCameraProgram, RegistersDepthToAColorCameraThatIsAway) {
+  std::ofstream(calibration_, std::ios::app) << kDepthLens;
+  test::write_bytes(folder_ + "/a_depth.png",
+                    encode_png(cv::Mat(24, 32, CV_16UC1, cv::Scalar(4000))));
+  std::filesystem::remove(folder_ + "/a_color.jpg");
+
+  const RunResult result = write_log({"--source", folder_});
+
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto frame = lcm_io::from_message(lcm_io::decode<depth_images_t>(events_of(log_)[0].data));
+  EXPECT_TRUE(frame.images.color.empty());
+  EXPECT_EQ(frame.images.depth.size(), cv::Size(kWidth, kHeight));
+  EXPECT_EQ(frame.images.stamp.frame, "depth/color_optical");
+}
+
 TEST_F(DepthCameraProgram, RefusesDepthOfAnotherSizeThanItsCalibrations) {
   std::ofstream(calibration_, std::ios::app) << kDepthLens;
   EXPECT_THAT(error({"--source", folder_}),
