@@ -20,18 +20,36 @@ cv::FileStorage yaml_text() {
   return {".yml", kMode};
 }
 
-/// The file is there whole or, where the program or the disk fails, as it was before.
-void write_whole(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".unfinished";
-  std::ofstream file(unfinished, std::ios::binary);
+bool write(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
+  return !file.fail();
+}
+
+/// A terminal, a pipe or /dev/null: it is written to, and no file may take its place.
+bool is_device(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_other(path, ignored);
+}
+
+/// A regular file is there whole or, where the program or the disk fails, as it was before; so is
+/// the one that a link leads to.
+bool write_whole(const std::string& path, const std::string& text) {
   std::error_code error;
-  if (file) fs::rename(unfinished, path, error);
-  if (file && !error) return;
+  const fs::path target = fs::exists(path, error) ? fs::canonical(path, error) : fs::path(path);
+  const fs::path unfinished = target.string() + ".unfinished";
+  const bool written = write(unfinished, text);
+  if (written) fs::rename(unfinished, target, error);
+  if (written && !error) return true;
   std::error_code ignored;
   fs::remove(unfinished, ignored);
-  throw std::runtime_error(path + ": cannot be written");
+  return false;
+}
+
+void save(const std::string& path, const std::string& text) {
+  if (!(is_device(path) ? write(path, text) : write_whole(path, text)))
+    throw std::runtime_error(path + ": cannot be written");
 }
 
 void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
@@ -79,7 +97,7 @@ void write_stereo_calibration(const std::string& path, const StereoCalibration& 
   file << "R" << cv::Mat(to_cv(calibration.R)) << "T" << cv::Mat(to_cv(calibration.T));
   if (calibration.rectification) write_rectification(file, *calibration.rectification);
   write_mounting(file, calibration.mounting);
-  write_whole(path, file.releaseAndGetString());
+  save(path, file.releaseAndGetString());
 }
 
 void write_depth_calibration(const std::string& path, const DepthCalibration& calibration) {
@@ -88,7 +106,7 @@ void write_depth_calibration(const std::string& path, const DepthCalibration& ca
   write_lens(file, "camera_matrix", "distortion_coefficients", calibration.color);
   file << "depth_scale" << calibration.depth_scale_m;
   write_mounting(file, calibration.mounting);
-  write_whole(path, file.releaseAndGetString());
+  save(path, file.releaseAndGetString());
 }
 
 }  // namespace limbcast

@@ -49,7 +49,7 @@ const std::string& url_of_network(const std::string& name, const config::CommonO
 
 std::string summary(const module_status_t& status) {
   std::array<char, 32> age = {"recorded data"};
-  if (status.latency_p50_ms < kOldestLive_ms)
+  if (is_age_of_live_data(status.latency_p50_ms))
     std::snprintf(age.data(), age.size(), "age p50 %.1f ms", status.latency_p50_ms);
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(),

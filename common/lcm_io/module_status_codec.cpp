@@ -27,11 +27,15 @@ double rate(float value) {
 }
 
 std::optional<double> latency(float value) {
-  return std::isfinite(value) && value < kOldestLive_ms ? std::optional<double>(value)
-                                                        : std::nullopt;
+  return is_age_of_live_data(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 }  // namespace
+
+bool is_age_of_live_data(float age_ms) {
+  constexpr float kLargestAge_ms = 60'000.0F;
+  return std::abs(age_ms) < kLargestAge_ms;
+}
 
 ModuleStatus from_message(const module_status_t& message) {
   require(!message.module.empty(), "status: 'module' is empty");

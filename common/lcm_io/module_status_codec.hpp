@@ -7,9 +7,9 @@
 
 namespace limbcast::lcm_io {
 
-/// An older age of the data says when a recording that is played was made, not how fast a module
-/// is [ms].
-inline constexpr float kOldestLive_ms = 60'000.0F;
+/// Whether an age of data [ms] tells how fast a module is. That of a recording that is played says
+/// when it was made: a minute and more ago, or by another clock that far in the future.
+bool is_age_of_live_data(float age_ms);
 
 /// How a module fares, as it last told. Texts are safe to print: no control characters.
 struct ModuleStatus {

@@ -110,6 +110,15 @@ TEST(ModuleStatusCodec, TellsNoLatencyWhereARecordingIsPlayed) {
   message.latency_p99_ms = 29'718'712'320.0F;
   EXPECT_EQ(lcm_io::from_message(message).latency_p50_ms, 129.0);
   EXPECT_FALSE(lcm_io::from_message(message).latency_p99_ms);
+  message.latency_p50_ms = -1'000'000'000.0F;  // of a simulated recording that is stamped in 2058
+  EXPECT_FALSE(lcm_io::from_message(message).latency_p50_ms);
+}
+
+TEST(ModuleStatusCodec, TellsAgesOfAClockThatIsALittleAhead) {
+  module_status_t message{};
+  message.module = "segmenter";
+  message.latency_p50_ms = -5.0F;
+  EXPECT_EQ(lcm_io::from_message(message).latency_p50_ms, -5.0);
 }
 
 }  // namespace

@@ -4,7 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <Eigen/Geometry>
+#include <array>
+#include <filesystem>
 #include <map>
 
 #include "common/camera/yaml_reader.hpp"
@@ -300,6 +306,30 @@ TEST(WrittenStereoCalibration, IsReadAsItWas) {
   const Eigen::Vector4d point =
       YamlReader(folder / "c.yml").matrix("Q", 4, 4) * Eigen::Vector4d(320.0, 240.0, 12.0, 1.0);
   EXPECT_DOUBLE_EQ(point.z() / point.w(), 5.0);
+}
+
+const DepthCalibration kWritten{{{640, 480, 500.0, 500.0, 320.0, 240.0}, {}}, {}, 0.001, {}};
+
+TEST(WrittenDepthCalibration, ReachesTheFileThatALinkLeadsTo) {
+  const TemporaryFolder folder;
+  folder.write("robot.yml", "old");
+  std::filesystem::create_symlink(folder / "robot.yml", folder / "link.yml");
+  write_depth_calibration(folder / "link.yml", kWritten);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.yml"));
+  EXPECT_EQ(read_depth_calibration(folder / "robot.yml").color.camera.fx, 500.0);
+}
+
+TEST(WrittenDepthCalibration, LeavesAPipeAPipe) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // NOLINT(*-vararg)
+  write_depth_calibration(pipe, kWritten);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  std::array<char, 5> first{};
+  EXPECT_EQ(read(reader, first.data(), first.size()), static_cast<ssize_t>(first.size()));
+  EXPECT_EQ(std::string(first.data(), first.size()), "%YAML");
+  close(reader);
 }
 
 TEST_F(DepthCalibrationFile, GivesCameraAndScale) {
