@@ -87,6 +87,13 @@ void write_rectification(cv::FileStorage& file, const Rectification& rectificati
   file << "Q" << disparity_to_point(rectification);
 }
 
+void write_depth_camera(cv::FileStorage& file, const DepthCamera& depth_camera) {
+  file << "depth_image_width" << depth_camera.lens.camera.width;
+  file << "depth_image_height" << depth_camera.lens.camera.height;
+  write_lens(file, "depth_camera_matrix", "depth_distortion_coefficients", depth_camera.lens);
+  file << "R" << cv::Mat(to_cv(depth_camera.R)) << "T" << cv::Mat(to_cv(depth_camera.T));
+}
+
 }  // namespace
 
 void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration) {
@@ -105,6 +112,7 @@ void write_depth_calibration(const std::string& path, const DepthCalibration& ca
   write_size(file, calibration.color.camera);
   write_lens(file, "camera_matrix", "distortion_coefficients", calibration.color);
   file << "depth_scale" << calibration.depth_scale_m;
+  if (calibration.depth_camera) write_depth_camera(file, *calibration.depth_camera);
   write_mounting(file, calibration.mounting);
   save(path, file.releaseAndGetString());
 }

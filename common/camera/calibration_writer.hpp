@@ -11,7 +11,7 @@ namespace limbcast {
 /// std::runtime_error where the file cannot be written.
 void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration);
 
-/// Writes a calibration of registered depth as read_depth_calibration reads it. Throws
+/// Writes a depth camera's calibration as read_depth_calibration reads it. Throws
 /// std::runtime_error where the file cannot be written.
 void write_depth_calibration(const std::string& path, const DepthCalibration& calibration);
 

@@ -8,7 +8,6 @@
 #include "common/formatted.hpp"
 #include "common/median.hpp"
 #include "common/units.hpp"
-#include "modules/reconstructor/reconstructor.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -25,17 +24,8 @@ Eigen::Vector3d median_direction(const std::vector<Eigen::Vector3d>& directions)
 
 }  // namespace
 
-void MountingFinder::add(const GreyPair& pair) {
-  ++pairs_;
-  // What the calibration tells already must not hide what the ground says.
-  StereoCalibration calibration = calibration_;
-  calibration.mounting = {};
-  reconstructor::ReconstructorOptions options;
-  options.ground_plane = false;
-  StereoImages images;
-  images.left = pair.left;
-  images.right = pair.right;
-  const Cloud cloud = reconstructor::StereoReconstructor(calibration, options).reconstruct(images);
+void MountingFinder::add(const Cloud& cloud) {
+  ++frames_;
   const auto ground = find_ground_plane(cloud, Eigen::Vector3f::UnitY());
   if (!ground) return;
   downs_.push_back(ground->down.cast<double>());
@@ -43,11 +33,11 @@ void MountingFinder::add(const GreyPair& pair) {
 }
 
 Mounting MountingFinder::mounting() const {
-  if (pairs_with_ground() < params_.min_frames)
+  if (frames_with_ground() < params_.min_frames)
     throw std::runtime_error(
-        formatted("%d of %d pairs show the ground; let the camera see the free "
+        formatted("%d of %d frames show the ground; let the camera see the free "
                   "floor, level or tipped by less than 30 degrees",
-                  pairs_with_ground(), pairs_));
+                  frames_with_ground(), frames_));
   Mounting mounting;
   mounting.down = median_direction(downs_);
   mounting.sensor_height_m = median(heights_m_);
@@ -60,7 +50,7 @@ Mounting MountingFinder::mounting() const {
   }
   if (median(angles_deg) > params_.max_spread_deg || median(differences_m) > params_.max_spread_m)
     throw std::runtime_error(formatted(
-        "the pairs do not agree: gravity within %.1f degrees (limit %.0f), "
+        "the frames do not agree: gravity within %.1f degrees (limit %.0f), "
         "height within %.2f m (limit %.1f); did the camera move?",
         median(angles_deg), params_.max_spread_deg, median(differences_m), params_.max_spread_m));
   return mounting;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/camera/calibration.hpp"
-#include "modules/calibrate/views.hpp"
+#include "common/cloud/cloud.hpp"
 
 namespace limbcast::calibrate {
 
@@ -19,21 +19,20 @@ struct MountingParams {
 /// How the camera stands, from the ground plane in the clouds of a recording.
 class MountingFinder {
  public:
-  explicit MountingFinder(StereoCalibration calibration, const MountingParams& params = {})
-      : calibration_(std::move(calibration)), params_(params) {}
+  explicit MountingFinder(const MountingParams& params = {}) : params_(params) {}
 
-  void add(const GreyPair& pair);
+  /// A cloud in the camera's frame, of which gravity is not known.
+  void add(const Cloud& cloud);
 
-  int pairs() const { return pairs_; }
-  int pairs_with_ground() const { return static_cast<int>(heights_m_.size()); }
+  int frames() const { return frames_; }
+  int frames_with_ground() const { return static_cast<int>(heights_m_.size()); }
   /// Medians of what the frames say. Throws std::runtime_error, saying why, where they do not agree
   /// or show no ground.
   Mounting mounting() const;
 
  private:
-  StereoCalibration calibration_;
   MountingParams params_;
-  int pairs_ = 0;
+  int frames_ = 0;
   std::vector<Eigen::Vector3d> downs_;
   std::vector<double> heights_m_;
 };

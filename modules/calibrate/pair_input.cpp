@@ -73,19 +73,11 @@ void visit_stream(const SourceOptions& options, const Take& take) {
   PairFormat format;
   format.names = kNames;
   format.jpeg_quality = 0;  // without loss: corners are wanted to a tenth of a pixel
-  const std::unique_ptr<PairSource> source = open_source(options, format);
-  config::log(config::LogLevel::kInfo, source->description());
-  ProblemLog problems;
-  while (!source->ended()) {
-    check_not_told_to_end();
-    const std::optional<FramePair> frame = source->next();
-    problems.tell(source->problem());
-    if (!frame) continue;
-    const std::string name = "frame " + std::to_string(frame->stamp.sequence);
-    if (!take({name, decode_grey(frame->first, name), decode_grey(frame->second, name),
-               frame->stamp.utime}))
-      return;
-  }
+  visit_source(options, format, [&](const FramePair& frame) {
+    const std::string name = "frame " + std::to_string(frame.stamp.sequence);
+    return take(
+        {name, decode_grey(frame.first, name), decode_grey(frame.second, name), frame.stamp.utime});
+  });
 }
 
 StereoCalibration calibration_in(const std::string& log) {
@@ -111,6 +103,19 @@ void declare_source(config::Section& section, SourceOptions& options) {
 
 void check_not_told_to_end() {
   if (lcm_io::stop_requested()) throw std::runtime_error("told to end; nothing is written");
+}
+
+void visit_source(const SourceOptions& options, const PairFormat& format,
+                  const std::function<bool(const FramePair&)>& take) {
+  const std::unique_ptr<PairSource> source = open_source(options, format);
+  config::log(config::LogLevel::kInfo, source->description());
+  ProblemLog problems;
+  while (!source->ended()) {
+    check_not_told_to_end();
+    const std::optional<FramePair> frame = source->next();
+    problems.tell(source->problem());
+    if (frame && !take(*frame)) return;
+  }
 }
 
 bool in_sequence(const std::string& source) { return !std::filesystem::is_directory(source); }

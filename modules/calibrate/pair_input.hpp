@@ -20,6 +20,11 @@ void declare_source(config::Section& section, SourceOptions& options);
 /// Do the pairs come one after another (video, camera, log) or as separate shots (folder)?
 bool in_sequence(const std::string& source);
 
+/// Calls `take` with each frame of a folder, a video or cameras, until the source ends or `take`
+/// returns false; what is wrong with a camera is told in the log. Throws as visit_pairs.
+void visit_source(const SourceOptions& options, const PairFormat& format,
+                  const std::function<bool(const FramePair&)>& take);
+
 /// Calls `take` with each pair of a folder (NAME_left, NAME_right), an LCM log, a video or cameras,
 /// until the source ends or `take` returns false. Throws InputError where the source cannot be
 /// used, std::runtime_error where the program is told to end.

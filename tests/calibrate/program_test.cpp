@@ -289,6 +289,73 @@ TEST(CalibrateProgram, FindsTheMountingOfARecording) {
   EXPECT_NEAR(*mounting.sensor_height_m, 1.25, 0.03);
 }
 
+/// A depth camera 1.3 m above the floor, tipped down by 10 degrees, that stands still.
+std::vector<std::string> simulated_depth_camera(const std::string& option,
+                                                const std::string& path) {
+  return {"--sensor",
+          "depth",
+          "--set",
+          "general",
+          "--frames",
+          "4",
+          "--seed",
+          "4711",
+          "--min-camera-height-m",
+          "1.3",
+          "--max-camera-height-m",
+          "1.3",
+          "--pitch-down-deg",
+          "10",
+          "--pitch-sigma-deg",
+          "0",
+          option,
+          path};
+}
+
+void expect_mounting_of_depth_camera(const std::string& calibration) {
+  const Mounting mounting = read_depth_calibration(calibration).mounting;
+  ASSERT_TRUE(mounting.down && mounting.sensor_height_m);
+  EXPECT_NEAR(mounting.down->z(), std::sin(0.1745), 0.009);
+  EXPECT_NEAR(*mounting.sensor_height_m, 1.3, 0.03);
+}
+
+TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasFolder) {
+  const TemporaryFolder out;
+  const std::string frames = out / "frames";
+  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
+            0);
+  const Outcome outcome = run_program(
+      "limbcast-calibrate", {"mounting", "--source", frames, "--calibration",
+                             frames + "/calibration.yml", "--output", out / "mounted.yml"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("4 of 4 frames show the ground"));
+  expect_mounting_of_depth_camera(out / "mounted.yml");
+}
+
+TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasLogWithItsOwnCalibration) {
+  const TemporaryFolder out;
+  ASSERT_EQ(
+      run_program("limbcast-simulate", simulated_depth_camera("--log", out / "in.log")).exit_code,
+      0);
+  const Outcome outcome = run_program("limbcast-calibrate", {"mounting", "--source", out / "in.log",
+                                                             "--output", out / "mounted.yml"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  expect_mounting_of_depth_camera(out / "mounted.yml");
+}
+
+TEST(CalibrateProgram, SaysWhichKindOfCalibrationItWantsForAMounting) {
+  const TemporaryFolder out;
+  const std::string frames = out / "frames";
+  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
+            0);
+  write_stereo_calibration(out / "stereo.yml", true_cameras());
+  const Outcome outcome =
+      run_program("limbcast-calibrate", {"mounting", "--source", frames, "--calibration",
+                                         out / "stereo.yml", "--output", out / "mounted.yml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("give a depth camera's"));
+}
+
 TEST(CalibrateProgram, WritesNoMountingWhereNoFileIsNamedForIt) {
   const TemporaryFolder folder;
   write_stereo_calibration(folder / "camera.yml", true_cameras());

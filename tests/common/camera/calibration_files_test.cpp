@@ -310,6 +310,24 @@ TEST(WrittenStereoCalibration, IsReadAsItWas) {
 
 const DepthCalibration kWritten{{{640, 480, 500.0, 500.0, 320.0, 240.0}, {}}, {}, 0.001, {}};
 
+TEST(WrittenDepthCalibration, KeepsADepthCameraOfItsOwn) {
+  DepthCalibration written = kWritten;
+  DepthCamera& camera = written.depth_camera.emplace();
+  camera.lens = {{320, 240, 250.0, 251.0, 160.0, 120.0}, {0.1, -0.2, 0.001, 0.002, 0.05}};
+  camera.R = Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  camera.T = {0.015, 0.001, -0.002};
+  const TemporaryFolder folder;
+  write_depth_calibration(folder / "c.yml", written);
+
+  const DepthCalibration read = read_depth_calibration(folder / "c.yml");
+  ASSERT_TRUE(read.depth_camera);
+  EXPECT_EQ(read.depth_camera->lens.camera.width, 320);
+  EXPECT_EQ(read.depth_camera->lens.camera.fy, 251.0);
+  EXPECT_EQ(read.depth_camera->lens.distortion, camera.lens.distortion);
+  EXPECT_TRUE(read.depth_camera->R.isApprox(camera.R));
+  EXPECT_EQ(read.depth_camera->T, camera.T);
+}
+
 TEST(WrittenDepthCalibration, ReachesTheFileThatALinkLeadsTo) {
   const TemporaryFolder folder;
   folder.write("robot.yml", "old");

@@ -1,0 +1,101 @@
+#include "modules/calibrate/depth_input.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <limbcast/depth_images_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
+#include <optional>
+
+#include "common/camera/calibration_reader.hpp"
+#include "common/camera/encoded_image.hpp"
+#include "common/config/options.hpp"
+#include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/depth_images_codec.hpp"
+#include "common/lcm_io/log_file.hpp"
+#include "common/sources/log_playback.hpp"
+#include "modules/calibrate/pair_input.hpp"
+#include "modules/depth_camera/registration.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+
+using TakeFrame = std::function<bool(const DepthImages&)>;
+
+constexpr const char* kDepthChannel = "DEPTH_IMAGES";
+constexpr const char* kStereoChannel = "STEREO_IMAGES";
+
+bool holds_pictures(const std::string& folder, const std::string& name_end) {
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [&](const fs::directory_entry& entry) {
+                       const std::string name = entry.path().stem();
+                       return name.size() > name_end.size() &&
+                              name.compare(name.size() - name_end.size(), name_end.size(),
+                                           name_end) == 0;
+                     });
+}
+
+/// The next frame of a depth camera in a log; nothing after the last.
+std::optional<lcm_io::CalibratedDepthImages> next_frame(lcm_io::LogReader& reader) {
+  while (const auto event = reader.next()) {
+    check_not_told_to_end();
+    if (event->channel == kDepthChannel)
+      return lcm_io::from_message(lcm_io::decode<depth_images_t>(event->data));
+  }
+  return std::nullopt;
+}
+
+void visit_depth_log(const std::string& log, const TakeFrame& take) {
+  lcm_io::LogReader reader(log);
+  while (const auto frame = next_frame(reader)) {
+    if (!take(frame->images)) return;
+  }
+}
+
+void visit_frames(const SourceOptions& options, const DepthCalibration& calibration,
+                  const TakeFrame& take) {
+  PairFormat format;
+  format.names = {"color", "depth"};
+  format.second_is_depth = true;
+  format.first_is_optional = true;
+  std::optional<depth_camera::DepthRegistration> registration;
+  if (calibration.depth_camera) registration.emplace(calibration);
+  visit_source(options, format, [&](const FramePair& frame) {
+    DepthImages images;
+    images.depth = decode_image(frame.second, "depth image");
+    if (registration) images.depth = registration->registered(images.depth);
+    return take(images);
+  });
+}
+
+}  // namespace
+
+bool is_of_depth_camera(const std::string& source) {
+  if (fs::is_directory(source))
+    return holds_pictures(source, "_depth") && !holds_pictures(source, "_left");
+  if (!is_lcm_log(source)) return false;
+  lcm_io::LogReader reader(source);
+  while (const auto event = reader.next()) {
+    if (event->channel == kDepthChannel) return true;
+    if (event->channel == kStereoChannel) return false;
+  }
+  return false;
+}
+
+void visit_depth_frames(const SourceOptions& options, const DepthCalibration& calibration,
+                        const TakeFrame& take) {
+  if (is_lcm_log(options.source))
+    visit_depth_log(options.source, take);
+  else
+    visit_frames(options, calibration, take);
+}
+
+DepthCalibration find_depth_calibration(const std::string& path, const std::string& source) {
+  if (!path.empty()) return read_depth_calibration(path);
+  if (!is_lcm_log(source)) throw config::UsageError("--calibration is missing; see --help");
+  lcm_io::LogReader reader(source);
+  return next_frame(reader).value().calibration;
+}
+
+}  // namespace limbcast::calibrate
