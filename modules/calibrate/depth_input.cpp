@@ -14,6 +14,7 @@
 #include "common/lcm_io/log_file.hpp"
 #include "common/sources/log_playback.hpp"
 #include "modules/calibrate/pair_input.hpp"
+#include "modules/depth_camera/frame_format.hpp"
 #include "modules/depth_camera/registration.hpp"
 
 namespace limbcast::calibrate {
@@ -55,13 +56,9 @@ void visit_depth_log(const std::string& log, const TakeFrame& take) {
 
 void visit_frames(const SourceOptions& options, const DepthCalibration& calibration,
                   const TakeFrame& take) {
-  PairFormat format;
-  format.names = {"color", "depth"};
-  format.second_is_depth = true;
-  format.first_is_optional = true;
   std::optional<depth_camera::DepthRegistration> registration;
   if (calibration.depth_camera) registration.emplace(calibration);
-  visit_source(options, format, [&](const FramePair& frame) {
+  visit_source(options, depth_camera::frame_format(calibration), [&](const FramePair& frame) {
     DepthImages images;
     images.depth = decode_image(frame.second, "depth image");
     if (registration) images.depth = registration->registered(images.depth);

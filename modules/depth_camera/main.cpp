@@ -6,6 +6,7 @@
 #include "common/lcm_io/stamp_codec.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
+#include "modules/depth_camera/frame_format.hpp"
 #include "modules/depth_camera/registration.hpp"
 
 namespace limbcast::depth_camera {
@@ -46,21 +47,12 @@ void run(const Options& options, const config::CommonOptions& common) {
     return;
   }
   const DepthCalibration calibration = read_depth_calibration(options.process.calibration);
-  const std::string& sensor = options.process.sensor;
-  PairFormat format{{"color", "depth"},
-                    true,
-                    calibration.color.camera.width,
-                    calibration.color.camera.height,
-                    sensor,
-                    sensor + "/color_optical",
-                    options.process.source.jpeg_quality};
-  format.first_is_optional = true;
+  PairFormat format = frame_format(calibration);
+  format.sensor = options.process.sensor;
+  format.frame = format.sensor + "/color_optical";
+  format.jpeg_quality = options.process.source.jpeg_quality;
   std::optional<DepthRegistration> registration;
-  if (calibration.depth_camera) {
-    registration.emplace(calibration);
-    format.second_width = calibration.depth_camera->lens.camera.width;
-    format.second_height = calibration.depth_camera->lens.camera.height;
-  }
+  if (calibration.depth_camera) registration.emplace(calibration);
   const auto send = [&](Outlet& outlet, const FramePair& frame) {
     outlet.send_frame(options.images_channel, to_message(frame, calibration, registration));
   };

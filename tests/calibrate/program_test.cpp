@@ -343,6 +343,39 @@ TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasLogWithItsOwnCalibration) 
   expect_mounting_of_depth_camera(out / "mounted.yml");
 }
 
+/// Makes the depths of a folder those of a camera of half the size in the colour camera's place.
+void halve_depth_camera(const std::string& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string path = entry.path();
+    if (path.find("_depth.png") == std::string::npos) continue;
+    cv::Mat half;
+    cv::resize(cv::imread(path, cv::IMREAD_UNCHANGED), half, {}, 0.5, 0.5, cv::INTER_NEAREST);
+    cv::imwrite(path, half);
+  }
+  DepthCalibration calibration = read_depth_calibration(folder + "/calibration.yml");
+  LensCalibration& lens = calibration.depth_camera.emplace().lens;
+  lens = calibration.color;
+  lens.camera.width /= 2;
+  lens.camera.height /= 2;
+  for (double* value : {&lens.camera.fx, &lens.camera.fy, &lens.camera.cx, &lens.camera.cy})
+    *value *= 0.5;
+  write_depth_calibration(folder + "/calibration.yml", calibration);
+}
+
+TEST(CalibrateProgram, FindsTheMountingOfADepthCameraWithALensOfItsOwn) {
+  const TemporaryFolder out;
+  const std::string frames = out / "frames";
+  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
+            0);
+  halve_depth_camera(frames);
+  const Outcome outcome = run_program(
+      "limbcast-calibrate", {"mounting", "--source", frames, "--calibration",
+                             frames + "/calibration.yml", "--output", out / "mounted.yml"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  expect_mounting_of_depth_camera(out / "mounted.yml");
+  EXPECT_TRUE(read_depth_calibration(out / "mounted.yml").depth_camera);
+}
+
 TEST(CalibrateProgram, SaysWhichKindOfCalibrationItWantsForAMounting) {
   const TemporaryFolder out;
   const std::string frames = out / "frames";
