@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <limbcast/depth_images_t.hpp>
-#include <limbcast/stereo_images_t.hpp>
 #include <optional>
 
 #include "common/camera/calibration_reader.hpp"

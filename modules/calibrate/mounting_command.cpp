@@ -89,6 +89,9 @@ bool run_mounting(int argc, const char* const* argv) {
   lcm_io::install_signal_handlers();
 
   const bool by_depth_camera = !options.depth_source.empty();
+  if (by_depth_camera && !options.source.second_source.empty())
+    throw config::UsageError(
+        "--source-right is of a stereo camera, --source-depth of a depth camera; give one of them");
   if (by_depth_camera) options.source.second_source = options.depth_source;
   if (by_depth_camera || is_of_depth_camera(options.source.source))
     complete_depth(options);

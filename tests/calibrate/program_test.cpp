@@ -399,6 +399,16 @@ TEST(CalibrateProgram, WritesNoMountingWhereNoFileIsNamedForIt) {
   EXPECT_EQ(outcome.err, "limbcast-calibrate: --output is missing; see --help\n");
 }
 
+TEST(CalibrateProgram, FindsAMountingOfOneKindOfCamera) {
+  const TemporaryFolder out;
+  const Outcome outcome =
+      run_program("limbcast-calibrate", {"mounting", "--source", "/dev/video0", "--source-right",
+                                         "/dev/video2", "--source-depth", "/dev/video4",
+                                         "--calibration", "c.yml", "--output", out / "c.yml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--source-depth of a depth camera; give one of them"));
+}
+
 TEST(CalibrateProgram, ExplainsWrongUsage) {
   const Outcome no_output = run_program("limbcast-calibrate", {"--source", "/nowhere"});
   EXPECT_EQ(no_output.exit_code, 2);
