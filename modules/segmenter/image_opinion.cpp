@@ -1,5 +1,7 @@
 #include "modules/segmenter/image_opinion.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -82,15 +84,19 @@ std::optional<Eigen::Vector3f> ImageOpinion::head_of_body(const Scene& scene,
 
 std::vector<ImagePose> ImageOpinion::see(const Scene& scene, const LabelledPerson& person,
                                          const RangeImage& view) const {
+  // Without colours the second takes the stripes of few rings for limbs.
+  const bool both = has_image(scene.cloud);
+  std::optional<ImagePose> first, second;
+  tbb::parallel_invoke([&] { first = look(scene, person, view); },
+                       [&] {
+                         if (both)
+                           second = second_network_.look(scene.cloud, person,
+                                                         scene.lattice.frame.down());
+                       });
   std::vector<ImagePose> poses;
-  const auto add = [&](std::optional<ImagePose> pose) {
-    if (pose) poses.push_back(std::move(*pose));
-  };
-  add(look(scene, person, view));
-  // Alone the second would be taken for the first; without colours it takes the stripes of few
-  // rings for limbs.
-  if (!poses.empty() && has_image(scene.cloud))
-    add(second_network_.look(scene.cloud, person, scene.lattice.frame.down()));
+  if (first) poses.push_back(std::move(*first));
+  // Alone the second would be taken for the first.
+  if (first && second) poses.push_back(std::move(*second));
   return poses;
 }
 

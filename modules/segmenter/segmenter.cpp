@@ -1,5 +1,7 @@
 #include "modules/segmenter/segmenter.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -217,9 +219,17 @@ void Segmenter::see_people(const Scene& scene, const std::vector<std::int16_t>& 
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
     if (!segment.valid() || (!image && !segment.range_image)) continue;
-    const LabelledPerson person{labels, static_cast<std::int16_t>(k),
-                                behind_surface(segment.seed_m)};
-    segment.image_poses = image_.see(scene, person, image ? none : *segment.range_image);
+    const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
+    const LabelledPerson person{labels, static_cast<std::int16_t>(k), head_m};
+    tbb::parallel_invoke(
+        [&] {
+          segment.image_poses = image_.see(scene, person, image ? none : *segment.range_image);
+        },
+        [&] {
+          // A head that is out of sight shows no face: that tells nothing.
+          if (segment.seed_kind != SeedKind::kBody)
+            segment.face = faces_.look(scene.cloud, head_m, scene.lattice.up);
+        });
   }
 }
 
@@ -239,9 +249,6 @@ void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labe
     segment.id = static_cast<std::int32_t>(k);
     if (!segment.valid()) continue;
     const auto label = static_cast<std::int16_t>(k);
-    // A head that is out of sight shows no face: that tells nothing.
-    if (segment.seed_kind != SeedKind::kBody)
-      segment.face = faces_.look(scene.cloud, behind_surface(segment.seed_m), scene.lattice.up);
     if (scene.cloud.organized())
       fill_from_camera(source, label, segment);
     else

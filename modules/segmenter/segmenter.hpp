@@ -45,7 +45,7 @@ class Segmenter {
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
   /// Joins segments that are arms of somebody else's to theirs, as the image shows them.
   void join_arms(const Scene& scene, std::vector<std::int16_t>& labels, Segments& result) const;
-  /// What the networks see of each person: in a camera's image, or in `range_image`.
+  /// What the networks see of each person and its face: in a camera's image, or in `range_image`.
   void see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                   Segments& result) const;
   void fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Segments& result) const;
