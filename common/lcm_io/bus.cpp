@@ -153,8 +153,9 @@ void Bus::receive() {
 
 Bus::Subscription* Bus::first_pending() {
   Subscription* first = nullptr;
+  const bool open = gate_();
   for (const auto& subscription : subscriptions_) {
-    if (subscription->pending.empty()) continue;
+    if (subscription->pending.empty() || (subscription->keep == Keep::kNewest && !open)) continue;
     if (first == nullptr || subscription->pending.front().order < first->pending.front().order)
       first = subscription.get();
   }

@@ -80,6 +80,10 @@ class Bus {
     return publish_bytes(channel, bytes);
   }
 
+  /// Subscriptions of the newest message are handled only while `open` tells so; meanwhile newer
+  /// messages take the older ones' places, as ever. Asked in the thread that calls handle().
+  void set_gate(std::function<bool()> open) { gate_ = std::move(open); }
+
   /// Runs the handler of the message that came first; waits for one up to `timeout`. False: none
   /// came.
   bool handle(std::chrono::milliseconds timeout);
@@ -113,6 +117,7 @@ class Bus {
   GroupMembership membership_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::function<void(const std::string&, const std::string&)> on_malformed_;
+  std::function<bool()> gate_ = [] { return true; };
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::int64_t next_order_ = 0, skipped_ = 0;

@@ -10,6 +10,7 @@
 #include "common/bounded_map.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/bus.hpp"
+#include "common/lcm_io/pace.hpp"
 #include "common/lcm_io/status_counter.hpp"
 
 namespace limbcast::lcm_io {
@@ -64,12 +65,23 @@ class Module {
     message.stamp.sequence = next_sequence_[channel].get(message.stamp.sensor)++;
     publish(channel, message);
     counter_.published(message.stamp.utime, utime_now());
+    pace_.published(message.stamp.sensor, message.stamp.utime, std::chrono::steady_clock::now());
   }
   template <class Message>
   void publish(const std::string& channel, const Message& message) {
     const std::string reason = bus_.publish(channel, message);
     if (!reason.empty())
       report_problem("messages cannot be sent: " + reason + "; check link and multicast route");
+  }
+
+  /// Takes up no more frames than the stage after this one gets done, which answers on `channel`
+  /// (pace.hpp): what it would skip is not made.
+  template <class Answer>
+  void keep_pace_with(const std::string& channel) {
+    subscribe_all<Answer>(channel, [this](const Answer& answer) {
+      pace_.answered(answer.stamp.sensor, answer.stamp.utime);
+    });
+    bus_.set_gate([this] { return pace_.may_go_on(std::chrono::steady_clock::now()); });
   }
 
   /// Lets the stages after this one have the processor first, by five steps of nice(2) for each:
@@ -100,6 +112,7 @@ class Module {
   std::string name_;
   Bus bus_;
   StatusCounter counter_;
+  Pace pace_;
   std::string note_;
   std::string last_logged_problem_;
   std::map<std::string, BoundedMap<std::int64_t>> next_sequence_;  ///< channel, sensor

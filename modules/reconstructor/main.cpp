@@ -1,3 +1,4 @@
+#include <limbcast/segments_t.hpp>
 #include <utility>
 
 #include "common/config/log.hpp"
@@ -42,6 +43,7 @@ void run(int argc, const char* const* argv) {
       options.depth_images_channel, [&](const depth_images_t& message) {
         module.publish_frame(options.point_cloud_channel, stage.process(message));
       });
+  module.keep_pace_with<segments_t>(options.segments_channel);
   module.give_way(2);
   module.run();
 }

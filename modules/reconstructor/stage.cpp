@@ -35,6 +35,8 @@ void declare(config::Section& section, StageOptions& options) {
   section.add("depth-images-channel", options.depth_images_channel,
               "input: frames of a depth camera");
   section.add("point-cloud-channel", options.point_cloud_channel, "output: point clouds");
+  section.add("segments-channel", options.segments_channel,
+              "input: what is made of the clouds; no more are made than are taken");
 }
 
 void Stage::on_calibration(stereo_calibration_t message) {

@@ -22,6 +22,7 @@ struct StageOptions {
   std::string stereo_calibration_channel = "STEREO_CALIBRATION";
   std::string depth_images_channel = "DEPTH_IMAGES";
   std::string point_cloud_channel = "POINT_CLOUD";
+  std::string segments_channel = "SEGMENTS";
 };
 
 /// Binds the keys of section [reconstructor].

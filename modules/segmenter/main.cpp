@@ -1,3 +1,5 @@
+#include <limbcast/body_poses_t.hpp>
+
 #include "common/lcm_io/module.hpp"
 #include "modules/segmenter/stage.hpp"
 
@@ -20,6 +22,7 @@ void run(int argc, const char* const* argv) {
       options.point_cloud_channel, [&](const point_cloud_t& message) {
         module.publish_frame(options.segments_channel, stage.process(message));
       });
+  module.keep_pace_with<body_poses_t>(options.body_poses_channel);
   module.give_way(1);
   module.run();
 }

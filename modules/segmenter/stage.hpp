@@ -14,6 +14,7 @@ struct StageOptions {
   SegmenterOptions algorithm;
   std::string point_cloud_channel = "POINT_CLOUD";
   std::string segments_channel = "SEGMENTS";
+  std::string body_poses_channel = "BODY_POSES";
 };
 
 /// Binds the keys of section [segmenter].
