@@ -1,6 +1,8 @@
 #include "modules/pose_fitter/refined/refined_fitter.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <optional>
@@ -195,6 +197,29 @@ TEST(RefinedFitter, FindsNobodyInAWall) {
   EXPECT_FALSE(fit(segment));
 }
 
+TEST(PoseSearch, FindsTheSameBodiesOnAnyNumberOfThreads) {
+  constexpr int kMostThreads = 4;
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, kMostThreads);
+  BodyState body = testing::standing_body(2.5, 30.0 * kDegree);
+  testing::point_with(body, 1, Eigen::Vector3d(-0.8, 0.1, -0.6).normalized());
+  const RefinedParams params;
+  const auto observation = refined::observe(testing::seen(body), testing::stamp(), params);
+  ASSERT_TRUE(observation);
+  const auto search_on = [&](int threads) {
+    tbb::task_arena arena(threads);
+    return arena.execute([&] { return refined::PoseSearch(*observation, params).run(); });
+  };
+  const auto expected = search_on(1);
+  for (const int threads : {2, kMostThreads}) {
+    const auto found = search_on(threads);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].cost, expected[i].cost);
+      EXPECT_EQ(found[i].body.points, expected[i].body.points);
+    }
+  }
+}
+
 TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
   segment.face.facing_log_odds = 3.0F;
@@ -203,7 +228,8 @@ TEST(RefinedEvidence, CountsTheFaceAgainstABodyThatFacesTheOtherWay) {
   ASSERT_TRUE(observation);
   refined::PoseSearch search(*observation, params);
 
-  const refined::Evidence evidence = gather_evidence(search.run(), search);
+  const auto candidates = search.run();
+  const refined::Evidence evidence = gather_evidence(candidates, search.moves());
 
   // The shape alone is asked whether this is a person.
   EXPECT_GT(evidence.shape_flip_gap, 0.0);

@@ -108,7 +108,7 @@ Real flip_gap(const std::vector<PoseCandidate>& candidates, const CostOf& cost_o
 }
 
 /// Rivals are other bodies that face the same way, and other arms of the best one.
-Real arm_gap(const std::vector<PoseCandidate>& candidates, int side, PoseSearch& search) {
+Real arm_gap(const std::vector<PoseCandidate>& candidates, int side, PoseMoves& moves) {
   const PoseCandidate& best = candidates.front();
   const auto is_rival = [&](const BodyState& body) {
     return !faces_the_other_way(body, best.body) &&
@@ -118,7 +118,7 @@ Real arm_gap(const std::vector<PoseCandidate>& candidates, int side, PoseSearch&
   for (const PoseCandidate& rival : candidates) {
     if (is_rival(rival.body)) gap = std::min(gap, rival.cost - best.cost);
   }
-  for (const PoseCandidate& rival : search.other_arms(best, side)) {
+  for (const PoseCandidate& rival : moves.other_arms(best, side)) {
     if (is_rival(rival.body)) gap = std::min(gap, rival.cost);
   }
   return gap;
@@ -126,13 +126,13 @@ Real arm_gap(const std::vector<PoseCandidate>& candidates, int side, PoseSearch&
 
 }  // namespace
 
-Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearch& search) {
+Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseMoves& moves) {
   Evidence evidence;
   const PoseCandidate& best = candidates.front();
   const BodyState& body = best.body;
-  Solver& solver = search.solver();
+  Solver& solver = moves.solver();
   const Observation& observation = solver.observation();
-  const FitStage stage = search.final_stage();
+  const FitStage stage = moves.final_stage();
   const Cones cones = make_cones_of(body);
 
   const auto equations = std::make_unique<NormalEquations>();
@@ -168,7 +168,7 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearc
     arm.support = surface_cost_without(cones, stage, kAllParts & ~arm_bit(side),
                                        solver.params().robust_sigmas) -
                   terms.surface;
-    arm.gap = arm_gap(candidates, side, search);
+    arm.gap = arm_gap(candidates, side, moves);
   }
   return evidence;
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "modules/pose_fitter/refined/image_term.hpp"
-#include "modules/pose_fitter/refined/pose_search.hpp"
+#include "modules/pose_fitter/refined/pose_moves.hpp"
 
 namespace limbcast::pose_fitter::refined {
 
@@ -34,6 +34,6 @@ struct Evidence {
   std::array<bool, kPointCount> in_sight{};  ///< nothing seen before it, in the image
 };
 
-Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseSearch& search);
+Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseMoves& moves);
 
 }  // namespace limbcast::pose_fitter::refined

@@ -29,7 +29,7 @@ std::optional<FittedBody> fit_body(const Segment& segment, const Stamp& stamp,
   FittedBody fitted;
   fitted.body = candidates.front().body;
   fitted.cost = candidates.front().cost;
-  fitted.evidence = gather_evidence(candidates, search);
+  fitted.evidence = gather_evidence(candidates, search.moves());
   fitted.evidence.head_odds = head_odds(segment);
   fitted.person = gather_person_evidence(fitted.body, *observation);
   fitted.observation = std::move(*observation);

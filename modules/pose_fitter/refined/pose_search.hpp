@@ -1,19 +1,16 @@
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <vector>
 
-#include "modules/pose_fitter/refined/arm_search.hpp"
-#include "modules/pose_fitter/refined/solver.hpp"
+#include "modules/pose_fitter/refined/pose_moves.hpp"
 
 namespace limbcast::pose_fitter::refined {
 
-struct PoseCandidate {
-  Real cost = 0.0;
-  BodyState body;
-};
-
 /// Finds the body of least cost: from trunk and legs alone at many rotations, over arm postures,
-/// and from the body that the image shows, to moves that leave a wrong minimum.
+/// and from the body that the image shows, to moves that leave a wrong minimum. Starts are fitted
+/// and moved side by side; the result does not depend on the number of threads.
 class PoseSearch {
  public:
   PoseSearch(const Observation& observation, const RefinedParams& params);
@@ -21,40 +18,26 @@ class PoseSearch {
   /// Candidates that were refined on all points, best first, with what `front_cost` adds to their
   /// cost; never empty.
   std::vector<PoseCandidate> run();
-  Solver& solver() { return solver_; }
-  /// Other arms of a side, everything else staying; cost: what they add to the present arm's.
-  std::vector<PoseCandidate> other_arms(const PoseCandidate& pose, int side);
-  /// All points, all parts, the final spread of the surface.
-  FitStage final_stage() const;
+  /// This thread's.
+  PoseMoves& moves() { return moves_.local(); }
 
  private:
   std::vector<PoseCandidate> trunk_starts();
-  PoseCandidate with_arms(const BodyState& start);
+  /// The trunk starts whose arms are to be searched.
+  std::vector<PoseCandidate> kept_starts(std::vector<PoseCandidate> all) const;
   /// Fitted from the body that the image shows and from the same seen from the other side; its size
   /// as of `like`. Empty where no image shows it.
   std::vector<PoseCandidate> poses_in_image(const BodyState& like);
-  void move(PoseCandidate& pose);
-  void move_limbs(PoseCandidate& pose);
+  /// Moves the best poses; adds what they rejected.
+  void move_best(std::vector<PoseCandidate>& poses);
   void choose_by_front(std::vector<PoseCandidate>& poses);
-  bool try_flip(PoseCandidate& pose);
-  bool accept_flipped(PoseCandidate flipped, PoseCandidate& pose);
-  bool try_flip_with_other_arms(PoseCandidate& pose);
-  bool try_legs(PoseCandidate& pose);
-  bool try_arm(PoseCandidate& pose, int side);
-  /// Takes a bent arm for a straight and raised one where that costs little more.
-  void straighten_arm(PoseCandidate& pose, int side);
-  /// The best `count` arms of `side` after fitting the arm alone to what the `explained` parts
-  /// leave.
-  std::vector<BodyState> fitted_arms(const BodyState& body, int side, unsigned explained,
-                                     int postures, int count);
-  bool accept(BodyState body, int iterations, PoseCandidate& pose);
+  /// Fits each body, to be found in `poses`, from where it is: all at the same time.
+  void minimize(std::vector<PoseCandidate>& poses, const FitStage& stage, int iterations);
 
   const Observation& observation_;
   const RefinedParams& params_;
   const SearchEffort& effort_;
-  Solver solver_;
-  std::vector<PoseCandidate> rejected_;  ///< bodies facing the other way that lost
-  ArmSearch arms_;
+  tbb::enumerable_thread_specific<PoseMoves> moves_;
 };
 
 }  // namespace limbcast::pose_fitter::refined
