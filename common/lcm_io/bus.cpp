@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/bounded_map.hpp"
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/lcm_url.hpp"
@@ -95,11 +96,12 @@ std::int64_t Bus::skipped() const {
 }
 
 void Bus::subscribe_bytes(const std::string& channel, Keep keep,
-                          std::function<void(const ReceivedMessage&)> handler) {
+                          std::function<void(const ReceivedMessage&)> handler, SourceOf source_of) {
   auto subscription = std::make_unique<Subscription>();
   subscription->bus = this;
   subscription->keep = keep;
   subscription->handler = std::move(handler);
+  subscription->source_of = std::move(source_of);
   // The C++ interface does not tell when LCM refuses.
   lcm_subscription_t* made =
       lcm_subscribe(lcm_.getUnderlyingLCM(), channel.c_str(), &Bus::on_message, subscription.get());
@@ -126,14 +128,23 @@ void Bus::on_message(const lcm_recv_buf_t* buffer, const char* channel, void* co
   const auto* data = static_cast<const std::uint8_t*>(buffer->data);
   auto* subscription = static_cast<Subscription*>(context);
   Bus& bus = *subscription->bus;
+  ReceivedMessage message{channel, buffer->recv_utime, {data, data + size}};
+  std::string source = subscription->source_of ? subscription->source_of(message.bytes) : "";
   const std::lock_guard lock(bus.mutex_);
-  if (subscription->keep == Keep::kNewest && !subscription->pending.empty()) {
-    subscription->pending.clear();
-    ++bus.skipped_;
-  }
-  subscription->pending.push_back(
-      {bus.next_order_++, {channel, buffer->recv_utime, {data, data + size}}});
+  if (subscription->keep == Keep::kNewest) bus.skip_older(*subscription, source);
+  subscription->pending.push_back({bus.next_order_++, std::move(source), std::move(message)});
   bus.arrived_.notify_one();
+}
+
+void Bus::skip_older(Subscription& subscription, const std::string& source) {
+  std::deque<Pending>& pending = subscription.pending;
+  auto older = std::find_if(pending.begin(), pending.end(),
+                            [&](const Pending& other) { return other.source == source; });
+  // Anyone can make up sources.
+  if (older == pending.end() && pending.size() >= kMostSensors) older = pending.begin();
+  if (older == pending.end()) return;
+  pending.erase(older);
+  ++skipped_;
 }
 
 void Bus::receive() {

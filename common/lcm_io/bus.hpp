@@ -32,9 +32,12 @@ void wait_for_network(const std::string& url);
 
 /// What a subscriber keeps while it works on a message.
 enum class Keep {
-  kNewest,  ///< the newest message; older ones are skipped and counted
+  kNewest,  ///< the newest message of each source; older ones are skipped and counted
   kAll,     ///< every message: calibrations, offline tools
 };
+
+/// Whose a message is, by its bytes. Asked by the receiving thread; must not throw.
+using SourceOf = std::function<std::string(const std::vector<std::uint8_t>&)>;
 
 /// A message as it came, whatever its type.
 struct ReceivedMessage {
@@ -59,16 +62,18 @@ class Bus {
 
   /// `handler` gets each message that could be decoded. A MessageError (of decoding or thrown by
   /// it) drops the message and goes to on_malformed; what else it throws comes out of handle().
+  /// Without `source_of` all are of one source.
   template <class Message>
-  void subscribe(const std::string& channel, Keep keep,
-                 std::function<void(const Message&)> handler) {
-    subscribe_bytes(channel, keep, [handler = std::move(handler)](const ReceivedMessage& message) {
+  void subscribe(const std::string& channel, Keep keep, std::function<void(const Message&)> handler,
+                 SourceOf source_of = nullptr) {
+    const auto decoded = [handler = std::move(handler)](const ReceivedMessage& message) {
       handler(decode<Message>(message.bytes));
-    });
+    };
+    subscribe_bytes(channel, keep, decoded, std::move(source_of));
   }
   /// Every message on every channel.
   void subscribe_everything(std::function<void(const ReceivedMessage&)> handler) {
-    subscribe_bytes(".*", Keep::kAll, std::move(handler));
+    subscribe_bytes(".*", Keep::kAll, std::move(handler), nullptr);
   }
 
   /// Empty: sent as far as this host can tell; else why not. LCM tells it only for messages below
@@ -97,17 +102,21 @@ class Bus {
  private:
   struct Pending {
     std::int64_t order;
+    std::string source;
     ReceivedMessage message;
   };
   struct Subscription {
     Bus* bus;
     Keep keep;
     std::function<void(const ReceivedMessage&)> handler;
-    std::deque<Pending> pending;
+    SourceOf source_of;
+    std::deque<Pending> pending;  ///< in order of arrival
   };
 
   void subscribe_bytes(const std::string& channel, Keep keep,
-                       std::function<void(const ReceivedMessage&)> handler);
+                       std::function<void(const ReceivedMessage&)> handler, SourceOf source_of);
+  /// Makes room for a source's newest message.
+  void skip_older(Subscription& subscription, const std::string& source);
   std::string publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes);
   static void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* context);
   void receive();

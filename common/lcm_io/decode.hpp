@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limbcast/stamp_t.hpp>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "common/lcm_io/message_error.hpp"
@@ -14,6 +16,16 @@ inline std::int64_t fingerprint_of(const std::vector<std::uint8_t>& bytes) {
   if (bytes.size() < sizeof(fingerprint)) return 0;
   for (std::size_t i = 0; i < sizeof(fingerprint); ++i) fingerprint = fingerprint << 8 | bytes[i];
   return static_cast<std::int64_t>(fingerprint);
+}
+
+/// Name of the sensor of a frame, whose messages begin with their stamp; empty where none is told.
+inline std::string sensor_of(const std::vector<std::uint8_t>& bytes) {
+  constexpr int kFingerprint_bytes = sizeof(std::int64_t);
+  const int rest_bytes = static_cast<int>(bytes.size()) - kFingerprint_bytes;
+  stamp_t stamp{};
+  if (rest_bytes <= 0 || stamp._decodeNoHash(bytes.data(), kFingerprint_bytes, rest_bytes) < 0)
+    return {};
+  return stamp.sensor;
 }
 
 /// The message that these bytes hold. Throws MessageError where they are of another type,

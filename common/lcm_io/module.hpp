@@ -37,17 +37,17 @@ class Module {
   /// Returns when the network is there.
   Module(const std::string& name, const config::CommonOptions& options);
 
-  /// Frames (messages with a stamp): the newest only, so none that others of its sensor overtook on
-  /// the way; counted, and gaps in their sequence too. What the handler throws is logged and put in
-  /// the status, and the module goes on.
+  /// Frames (messages that begin with a stamp): of each sensor the newest only, so none that others
+  /// overtook on the way; counted, and gaps in their sequence too. What the handler throws is
+  /// logged and put in the status, and the module goes on.
   template <class Message>
   void subscribe_frames(const std::string& channel, std::function<void(const Message&)> handler) {
-    bus_.subscribe<Message>(channel, Keep::kNewest,
-                            [this, channel, handler = std::move(handler)](const Message& message) {
-                              if (!counter_.received(message.stamp.sensor, message.stamp.sequence))
-                                return;
-                              guarded(channel, [&] { handler(message); });
-                            });
+    const auto guarded_handler = [this, channel,
+                                  handler = std::move(handler)](const Message& message) {
+      if (!counter_.received(message.stamp.sensor, message.stamp.sequence)) return;
+      guarded(channel, [&] { handler(message); });
+    };
+    bus_.subscribe<Message>(channel, Keep::kNewest, guarded_handler, &sensor_of);
   }
   /// What must not be skipped, such as a calibration.
   template <class Message>

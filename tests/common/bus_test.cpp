@@ -6,9 +6,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limbcast/body_poses_t.hpp>
+#include <limbcast/depth_images_t.hpp>
 #include <limbcast/image_t.hpp>
 #include <limbcast/mounting_t.hpp>
+#include <limbcast/point_cloud_t.hpp>
+#include <limbcast/segments_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
 
+#include "common/bounded_map.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/lcm_url.hpp"
 #include "tests/support/child_process.hpp"
@@ -59,6 +65,71 @@ TEST(Bus, KeepsTheNewestAndCountsTheSkipped) {
   bus.publish("MARKER", mounting_t{});
   while (!marker || got.empty() || got.back() != 19) ASSERT_TRUE(bus.handle(kNever));
   EXPECT_EQ(static_cast<int>(got.size()) + bus.skipped(), 20);
+}
+
+point_cloud_t cloud_of(const std::string& sensor, int number) {
+  point_cloud_t message{};
+  message.stamp.sensor = sensor;
+  message.stamp.sequence = number;
+  return message;
+}
+
+/// The clouds that wait, by sensor, while nobody handles them: `publish` sends them.
+std::vector<std::string> kept(const std::function<void(Bus&)>& publish) {
+  Bus bus("memq://");
+  bool open = false;
+  std::vector<std::string> got;
+  bus.set_gate([&] { return open; });
+  bus.subscribe<point_cloud_t>(
+      "CLOUD", Keep::kNewest,
+      [&](const point_cloud_t& message) {
+        got.push_back(message.stamp.sensor + " " + std::to_string(message.stamp.sequence));
+      },
+      &sensor_of);
+  // The marker comes last: once it is handled, all before it have arrived.
+  bool marker = false;
+  bus.subscribe<mounting_t>("MARKER", Keep::kAll, [&](const mounting_t&) { marker = true; });
+  publish(bus);
+  bus.publish("MARKER", mounting_t{});
+  while (!marker) EXPECT_TRUE(bus.handle(kNever));
+  open = true;
+  while (bus.handle(milliseconds(0))) continue;
+  return got;
+}
+
+TEST(Bus, KeepsTheNewestOfEachSensorAndHandlesTheLongestWaitingFirst) {
+  const auto got = kept([](Bus& bus) {
+    for (const int number : {1, 2}) {
+      bus.publish("CLOUD", cloud_of("front", number));
+      bus.publish("CLOUD", cloud_of("rear", number));
+    }
+    bus.publish("CLOUD", cloud_of("front", 3));
+  });
+  EXPECT_EQ(got, (std::vector<std::string>{"rear 2", "front 3"}));
+}
+
+TEST(Bus, KeepsAsManySensorsAsARobotHasWhateverNamesComeIn) {
+  const auto got = kept([](Bus& bus) {
+    for (int i = 0; i < 1000; ++i) bus.publish("CLOUD", cloud_of(std::to_string(i), 0));
+  });
+  ASSERT_EQ(got.size(), kMostSensors);
+  EXPECT_EQ(got.back(), "999 0");
+}
+
+TEST(SensorOfAFrame, IsReadFromItsStamp) {
+  const auto read = [](auto message) {
+    message.stamp.sensor = "front";
+    std::vector<std::uint8_t> bytes(message.getEncodedSize());
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return sensor_of(bytes);
+  };
+  EXPECT_EQ(read(stereo_images_t{}), "front");
+  EXPECT_EQ(read(depth_images_t{}), "front");
+  EXPECT_EQ(read(point_cloud_t{}), "front");
+  EXPECT_EQ(read(segments_t{}), "front");
+  EXPECT_EQ(read(body_poses_t{}), "front");
+  EXPECT_EQ(sensor_of({}), "");
+  EXPECT_EQ(sensor_of(std::vector<std::uint8_t>(40, 255)), "");
 }
 
 TEST(Bus, ReportsAForeignMessageAndGoesOn) {
