@@ -4,7 +4,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-#include "modules/reconstructor/simd.hpp"
+#include "common/simd.hpp"
 
 namespace limbcast::reconstructor {
 namespace {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/simd.hpp"
 #include "modules/reconstructor/matching_costs.hpp"
-#include "modules/reconstructor/simd.hpp"
 
 // Costs and sums are bytes, those of a pixel's disparities side by side. Rows are worked on from
 // above to below, a few at a time, so that what is worked on stays in the cache: of a strip of rows

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "modules/reconstructor/simd.hpp"
+#include "common/simd.hpp"
 
 namespace limbcast::reconstructor {
 namespace {

@@ -14,7 +14,7 @@
 #define LIMBCAST_BIT_COUNTING_SIMD
 #endif
 
-namespace limbcast::reconstructor {
+namespace limbcast {
 
 inline bool counts_bits_of_vectors() {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -25,4 +25,4 @@ inline bool counts_bits_of_vectors() {
 #endif
 }
 
-}  // namespace limbcast::reconstructor
+}  // namespace limbcast
