@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core/hal/intrin.hpp>
+#include <functional>
+
+#include "common/simd.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -10,8 +12,34 @@ namespace {
 /// Keeps unknowns that nothing observes in place [1 / m^2].
 constexpr Real kDampingFloor = 1.0;
 
-/// Row length: a multiple of four, so that rows start alike.
-constexpr int kStride = (kUnknownCount + 3) / 4 * 4;
+/// Least pivot: keeps rounding from making one negative.
+constexpr float kLeastPivot = 1e-3F;
+
+/// Rows that are eliminated at once. Each adds up its own products in the same order whatever the
+/// width of the processor's vectors, so that steps are the same everywhere.
+constexpr int kRowsAtOnce = 8;
+using Rows = float __attribute__((vector_size(kRowsAtOnce * sizeof(float)), may_alias));
+/// Partial sums of a row's products.
+constexpr int kSums = 8;
+
+/// Rows of the unknowns and of the right side, up to whole vectors.
+constexpr int kStride = (kUnknownCount + 1 + kRowsAtOnce - 1) / kRowsAtOnce * kRowsAtOnce;
+
+/// The lower triangle by columns with the negative gradient as its last row, which elimination
+/// turns into the solution of the forward substitution. Rows begin at `first`, so that the last
+/// ones, with the most columns, fill a vector.
+struct Triangle {
+  explicit Triangle(int unknowns)
+      : count(unknowns),
+        rows((unknowns + kRowsAtOnce) / kRowsAtOnce * kRowsAtOnce),
+        first(rows - unknowns - 1) {}
+
+  float* column(int j) { return &columns[static_cast<std::size_t>(j) * kStride]; }
+  Rows& rows_at(int j, int row) { return *reinterpret_cast<Rows*>(column(j) + row); }
+
+  int count, rows, first;
+  alignas(sizeof(Rows)) std::array<float, kUnknownCount * kStride> columns;
+};
 
 UnknownSet make_set(unsigned parts) {
   UnknownSet set;
@@ -38,20 +66,81 @@ UnknownSet make_set(unsigned parts) {
   return set;
 }
 
-float dot(const float* a, const float* b, int count) {
-  cv::v_float32x4 first = cv::v_setzero_f32(), second = cv::v_setzero_f32();
-  int i = 0;
-  for (; i + 8 <= count; i += 8) {
-    first = cv::v_muladd(cv::v_load(a + i), cv::v_load(b + i), first);
-    second = cv::v_muladd(cv::v_load(a + i + 4), cv::v_load(b + i + 4), second);
+void find_places(UnknownSet& set) {
+  for (int j = 0; j < set.count; ++j) {
+    for (int i = j; i < set.count; ++i) {
+      const auto [row, column] = std::minmax(set.unknowns[i], set.unknowns[j], std::greater<>());
+      set.hessian_places.push_back(static_cast<std::uint16_t>(column * kUnknownCount + row));
+    }
   }
-  if (i + 4 <= count) {
-    first = cv::v_muladd(cv::v_load(a + i), cv::v_load(b + i), first);
-    i += 4;
+}
+
+void fill(const NormalEquations& equations, const UnknownSet& set, Real damping,
+          Triangle& triangle) {
+  const std::uint16_t* place = set.hessian_places.data();
+  for (int j = 0; j < set.count; ++j) {
+    const int diagonal = triangle.first + j;
+    float* column = triangle.column(j);
+    std::fill(column + diagonal / kRowsAtOnce * kRowsAtOnce, column + diagonal, 0.0F);
+    const Real pivot = equations.hessian.data()[*place];
+    for (int row = diagonal; row < triangle.rows - 1; ++row)
+      column[row] = static_cast<float>(equations.hessian.data()[*place++]);
+    column[diagonal] += static_cast<float>(damping * pivot + kDampingFloor);
+    column[triangle.rows - 1] = static_cast<float>(-equations.gradient[set.unknowns[j]]);
   }
-  float sum = cv::v_reduce_sum(first + second);
-  for (; i < count; ++i) sum += a[i] * b[i];
-  return sum;
+}
+
+/// Cholesky's factor in place, its diagonal inverted.
+LIMBCAST_SIMD void eliminate(Triangle& triangle) {
+  for (int row = 0; row < triangle.rows; row += kRowsAtOnce) {
+    const int columns = std::min(triangle.count, row + kRowsAtOnce - triangle.first);
+    for (int j = 0; j < columns; ++j) {
+      const int diagonal = triangle.first + j;
+      Rows sums[kSums] = {};
+      int k = 0;
+      for (; k + kSums <= j; k += kSums) {
+        for (int s = 0; s < kSums; ++s)
+          sums[s] += triangle.rows_at(k + s, row) * triangle.column(k + s)[diagonal];
+      }
+      if (k + kSums / 2 <= j) {
+        for (int s = 0; s < kSums / 2; ++s)
+          sums[s] += triangle.rows_at(k + s, row) * triangle.column(k + s)[diagonal];
+        k += kSums / 2;
+      }
+      for (int s = 0; s < kSums / 2; ++s) sums[s] += sums[s + kSums / 2];
+      Rows sum = (sums[0] + sums[2]) + (sums[1] + sums[3]);
+      for (; k < j; ++k) sum += triangle.rows_at(k, row) * triangle.column(k)[diagonal];
+      Rows& rest = triangle.rows_at(j, row);
+      rest -= sum;
+      float& pivot = triangle.column(j)[diagonal];
+      if (diagonal < row) {
+        rest *= pivot;
+      } else {
+        const float inverse = 1.0F / std::sqrt(std::max(pivot, kLeastPivot));
+        rest *= inverse;
+        pivot = inverse;
+      }
+    }
+  }
+}
+
+/// The last row times the inverse of the transposed factor: later unknowns are taken off first.
+LIMBCAST_SIMD void substitute_back(Triangle& triangle, std::array<float, kStride>& solution) {
+  for (int j = 0; j < triangle.count; ++j)
+    solution[triangle.first + j] = triangle.column(j)[triangle.rows - 1];
+  for (int row = triangle.rows - kRowsAtOnce; row >= 0; row -= kRowsAtOnce) {
+    const int begin = std::max(row, triangle.first),
+              end = std::min(row + kRowsAtOnce, triangle.rows - 1);
+    for (int i = end - 1; i >= begin; --i) {
+      solution[i] *= triangle.column(i - triangle.first)[i];
+      for (int j = begin; j < i; ++j)
+        solution[j] -= solution[i] * triangle.column(j - triangle.first)[i];
+    }
+    for (int j = triangle.first; j < begin; ++j) {
+      const float* column = triangle.column(j - triangle.first);
+      for (int i = end - 1; i >= begin; --i) solution[j] -= solution[i] * column[i];
+    }
+  }
 }
 
 }  // namespace
@@ -59,7 +148,10 @@ float dot(const float* a, const float* b, int count) {
 const UnknownSet& unknowns_of(unsigned parts) {
   static const std::array<UnknownSet, kAllParts + 1> sets = [] {
     std::array<UnknownSet, kAllParts + 1> all;
-    for (unsigned i = 0; i <= kAllParts; ++i) all[i] = make_set(i);
+    for (unsigned i = 0; i <= kAllParts; ++i) {
+      all[i] = make_set(i);
+      find_places(all[i]);
+    }
     return all;
   }();
   return sets[parts];
@@ -67,34 +159,14 @@ const UnknownSet& unknowns_of(unsigned parts) {
 
 Eigen::Matrix<Real, kUnknownCount, 1> damped_step(const NormalEquations& equations,
                                                   const UnknownSet& set, Real damping) {
-  const int n = set.count;
-  alignas(16) std::array<float, kUnknownCount * kStride> factor;  // rows of the lower triangle
-  alignas(16) std::array<float, kStride> solution{};
-  for (int i = 0; i < n; ++i) {
-    float* row = &factor[static_cast<std::size_t>(i) * kStride];
-    const int a = set.unknowns[i];
-    for (int j = 0; j <= i; ++j) {
-      const int b = set.unknowns[j];
-      row[j] = static_cast<float>(equations.hessian(std::max(a, b), std::min(a, b)));
-    }
-    row[i] += static_cast<float>(damping * equations.hessian(a, a) + kDampingFloor);
-    for (int j = 0; j < i; ++j) {
-      const float* other = &factor[static_cast<std::size_t>(j) * kStride];
-      row[j] = (row[j] - dot(row, other, j)) * other[j];
-    }
-    // The diagonal is kept inverted.
-    row[i] = 1.0F / std::sqrt(std::max(row[i] - dot(row, row, i), 1e-3F));
-    solution[i] =
-        (static_cast<float>(-equations.gradient[a]) - dot(row, solution.data(), i)) * row[i];
-  }
+  Triangle triangle(set.count);
+  fill(equations, set, damping, triangle);
+  eliminate(triangle);
+  std::array<float, kStride> solution;
+  substitute_back(triangle, solution);
   Eigen::Matrix<Real, kUnknownCount, 1> step;
   step.setZero();
-  for (int i = n - 1; i >= 0; --i) {
-    const float* row = &factor[static_cast<std::size_t>(i) * kStride];
-    solution[i] *= row[i];
-    for (int j = 0; j < i; ++j) solution[j] -= solution[i] * row[j];
-    step[set.unknowns[i]] = solution[i];
-  }
+  for (int i = 0; i < set.count; ++i) step[set.unknowns[i]] = solution[triangle.first + i];
   return step;
 }
 

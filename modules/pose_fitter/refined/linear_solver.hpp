@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "modules/pose_fitter/refined/normal_equations.hpp"
 
 namespace limbcast::pose_fitter::refined {
@@ -8,6 +11,8 @@ namespace limbcast::pose_fitter::refined {
 struct UnknownSet {
   std::array<int, kUnknownCount> unknowns;
   int count = 0;
+  /// Where the Hessian holds the lower triangle of these unknowns, column by column.
+  std::vector<std::uint16_t> hessian_places;
 };
 /// The unknowns of those parts. A single arm is its points from the shoulder on; with the trunk
 /// come size and rotation.
