@@ -32,11 +32,11 @@ struct FitStage {
 /// What the terms of the cost add up to, for looking at.
 struct CostTerms {
   Real surface = 0.0, free_space = 0.0, priors = 0.0, image = 0.0;
-  Real total() const { return surface + free_space + priors + image; }
 };
 
-/// Buffers of one evaluation, kept to spare allocation.
+/// What one look at the cost leaves for its derivatives.
 struct Workspace {
+  Cones body_cones;
   NearestCones nearest;
   ConeEquations cones;
 };
@@ -72,9 +72,13 @@ Real sideways(const Vec3& front, const Observation& observation);
 void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,
                    const NearestCones* fixed, NearestCones& nearest);
 
-/// The whole cost; its normal equations too when `derivatives` are wanted.
+/// The whole cost, without derivatives.
 CostTerms evaluate(const BodyState& body, const Observation& observation, const FitStage& stage,
-                   const RefinedParams& params, bool derivatives, Workspace& workspace,
-                   NormalEquations& equations);
+                   const RefinedParams& params, Workspace& workspace, NormalEquations& equations);
+
+/// The normal equations of the stage's unknowns at the body that was evaluated last; apart, as no
+/// step is taken from most bodies that are looked at.
+void derive(const BodyState& body, const Observation& observation, const FitStage& stage,
+            const RefinedParams& params, const Workspace& workspace, NormalEquations& equations);
 
 }  // namespace limbcast::pose_fitter::refined

@@ -50,7 +50,6 @@ struct Sample {
 void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
                          Real weight, Workspace& workspace, NormalEquations& equations) {
   const PinholeCamera& camera = observation.camera;
-  const bool derivatives = equations.derivatives();
   Real cost = 0.0;
   const auto add = [&](const Sample& sample, Real residual, Real sigma, Real limit,
                        const Vec3& gradient) {
@@ -58,11 +57,9 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
     const Real ratio = information * residual * residual / (limit * limit),
                shrink = 1.0 / (1.0 + ratio);
     cost += weight * 0.5 * limit * limit * ratio * shrink;
-    if (derivatives) {
-      workspace.cones.add(sample.cone, static_cast<float>(sample.t), gradient.cast<float>(), 0.0F,
-                          static_cast<float>(residual),
-                          static_cast<float>(weight * information * shrink * shrink));
-    }
+    workspace.cones.add(sample.cone, static_cast<float>(sample.t), gradient.cast<float>(), 0.0F,
+                        static_cast<float>(residual),
+                        static_cast<float>(weight * information * shrink * shrink));
   };
   for (int c = 0; c < kConeCount; ++c) {
     const Part part = cone_specs()[c].part;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "common/simd.hpp"
 
@@ -40,40 +39,6 @@ struct Triangle {
   int count, rows, first;
   alignas(sizeof(Rows)) std::array<float, kUnknownCount * kStride> columns;
 };
-
-UnknownSet make_set(unsigned parts) {
-  UnknownSet set;
-  const auto add_point = [&](int point) {
-    for (int axis = 0; axis < 3; ++axis) set.unknowns[set.count++] = 3 * point + axis;
-  };
-  const bool trunk = (parts & bit(Part::kTrunk)) != 0;
-  for (int side = 0; side < 2; ++side) {
-    if ((parts & arm_bit(side)) == 0) continue;
-    for (const int point : {kHand, kWrist, kElbow}) add_point(point + side);
-    if (!trunk) add_point(kShoulder + side);
-  }
-  for (int side = 0; side < 2 && (parts & bit(Part::kLegs)) != 0; ++side) {
-    for (const int point : {kToe, kAnkle, kKnee}) add_point(point + side);
-  }
-  if (trunk) {
-    for (const int point :
-         {static_cast<int>(kHead), kHip + 0, kHip + 1, static_cast<int>(kChest),
-          static_cast<int>(kPelvis), kShoulder + 0, kShoulder + 1, static_cast<int>(kNeck)}) {
-      add_point(point);
-    }
-    for (int i = kLogStature; i < kUnknownCount; ++i) set.unknowns[set.count++] = i;
-  }
-  return set;
-}
-
-void find_places(UnknownSet& set) {
-  for (int j = 0; j < set.count; ++j) {
-    for (int i = j; i < set.count; ++i) {
-      const auto [row, column] = std::minmax(set.unknowns[i], set.unknowns[j], std::greater<>());
-      set.hessian_places.push_back(static_cast<std::uint16_t>(column * kUnknownCount + row));
-    }
-  }
-}
 
 void fill(const NormalEquations& equations, const UnknownSet& set, Real damping,
           Triangle& triangle) {
@@ -144,18 +109,6 @@ LIMBCAST_SIMD void substitute_back(Triangle& triangle, std::array<float, kStride
 }
 
 }  // namespace
-
-const UnknownSet& unknowns_of(unsigned parts) {
-  static const std::array<UnknownSet, kAllParts + 1> sets = [] {
-    std::array<UnknownSet, kAllParts + 1> all;
-    for (unsigned i = 0; i <= kAllParts; ++i) {
-      all[i] = make_set(i);
-      find_places(all[i]);
-    }
-    return all;
-  }();
-  return sets[parts];
-}
 
 Eigen::Matrix<Real, kUnknownCount, 1> damped_step(const NormalEquations& equations,
                                                   const UnknownSet& set, Real damping) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/pose_fitter/refined/body_model.hpp"
+#include "modules/pose_fitter/refined/unknown_set.hpp"
 
 namespace limbcast::pose_fitter::refined {
 
@@ -8,26 +8,39 @@ namespace limbcast::pose_fitter::refined {
 /// kept.
 class NormalEquations {
  public:
-  Eigen::Matrix<Real, kUnknownCount, kUnknownCount> hessian;
-  Eigen::Matrix<Real, kUnknownCount, 1> gradient;
+  Eigen::Matrix<Real, kUnknownCount, kUnknownCount> hessian = decltype(hessian)::Zero();
+  Eigen::Matrix<Real, kUnknownCount, 1> gradient = decltype(gradient)::Zero();
   Real cost = 0.0;
 
+  /// With the derivatives by all unknowns or, where none are wanted, by none: then the ones from
+  /// before stay.
   void clear(bool derivatives) {
-    derivatives_ = derivatives;
+    if (derivatives) return clear(unknowns_of(kAllParts));
     cost = 0.0;
-    if (!derivatives) return;
-    hessian.setZero();
+    derivatives_ = false;
+    wanted_.fill(false);
+  }
+  /// With the derivatives by these unknowns alone.
+  void clear(const UnknownSet& unknowns) {
+    cost = 0.0;
+    derivatives_ = true;
+    wanted_ = unknowns.contains;
+    for (const std::uint16_t place : unknowns.hessian_places) hessian.data()[place] = 0.0;
     gradient.setZero();
   }
   bool derivatives() const { return derivatives_; }
+  bool wants(int unknown) const { return wanted_[unknown]; }
+  bool wants_point(int point) const { return wanted_[3 * point]; }
 
   /// A row of the Jacobian is put together between start_row and add_residual.
   void start_row() { count_ = 0; }
   void derivative(int unknown, Real value) {
     unknowns_[count_] = unknown;
-    values_[count_++] = value;
+    values_[count_] = value;
+    if (wanted_[unknown]) ++count_;
   }
   void derivative_of_point(int point, const Vec3& value) {
+    if (!wants_point(point)) return;
     for (int axis = 0; axis < 3; ++axis) derivative(3 * point + axis, value[axis]);
   }
   /// 0.5 * (residual / sigma)^2.
@@ -59,7 +72,8 @@ class NormalEquations {
   }
 
  private:
-  bool derivatives_ = true;
+  bool derivatives_ = false;
+  std::array<bool, kUnknownCount> wanted_{};
   int count_ = 0;
   std::array<int, 48> unknowns_;
   std::array<Real, 48> values_;

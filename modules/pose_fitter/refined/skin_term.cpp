@@ -34,7 +34,6 @@ void add_skin_term(const Cones& cones, const Observation& observation, unsigned 
     const Real ratio = information * residual * residual / (kLimitSigmas * kLimitSigmas);
     const Real shrink = 1.0 / (1.0 + ratio);
     equations.cost += 0.5 * kLimitSigmas * kLimitSigmas * ratio * shrink;
-    if (!equations.derivatives()) continue;
     const Eigen::Vector3f gradient(
         static_cast<float>(0.5 * (distance(u + 1, v) - distance(u - 1, v))),
         static_cast<float>(0.5 * (distance(u, v + 1) - distance(u, v - 1))), 0.0F);

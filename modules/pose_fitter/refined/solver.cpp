@@ -1,7 +1,6 @@
 #include "modules/pose_fitter/refined/solver.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "modules/pose_fitter/refined/linear_solver.hpp"
 
@@ -24,37 +23,43 @@ Step limited(Step step) {
 }  // namespace
 
 Solver::Solver(const Observation& observation, const RefinedParams& params)
-    : observation_(observation),
-      params_(params),
-      current_(std::make_unique<NormalEquations>()),
-      trial_(std::make_unique<NormalEquations>()) {}
+    : observation_(observation), params_(params), equations_(std::make_unique<NormalEquations>()) {}
 
 CostTerms Solver::evaluate_at(const BodyState& body, const FitStage& stage,
                               NormalEquations& equations) {
-  ++evaluations_;
-  return evaluate(body, observation_, stage, params_, true, workspace_, equations);
+  const CostTerms terms = evaluate(body, observation_, stage, params_, workspace_, equations);
+  derive(body, observation_, stage, params_, workspace_, equations);
+  return terms;
+}
+
+Real Solver::cost_at(const BodyState& body, const FitStage& stage) {
+  evaluate(body, observation_, stage, params_, workspace_, *equations_);
+  return equations_->cost;
 }
 
 Real Solver::minimize(BodyState& body, const FitStage& stage, int iterations, Real target) {
-  evaluate_at(body, stage, *current_);
   const UnknownSet& unknowns = unknowns_of(stage.parts);
-  Real damping = kFirstDamping;
+  Real cost = cost_at(body, stage), damping = kFirstDamping;
+  bool derived = false;
   for (int i = 0; i < iterations; ++i) {
-    const BodyState candidate = moved(body, limited(damped_step(*current_, unknowns, damping)));
-    evaluate_at(candidate, stage, *trial_);
-    if (!(trial_->cost < current_->cost)) {
+    if (!derived) derive(body, observation_, stage, params_, workspace_, *equations_);
+    derived = true;
+    const BodyState candidate = moved(body, limited(damped_step(*equations_, unknowns, damping)));
+    const Real candidate_cost = cost_at(candidate, stage);
+    if (!(candidate_cost < cost)) {
       damping *= kMoreDamping;
       if (damping > kMostDamping) break;
       continue;
     }
-    const Real gain = current_->cost - trial_->cost;
+    const Real gain = cost - candidate_cost;
     body = candidate;
-    std::swap(current_, trial_);
+    cost = candidate_cost;
+    derived = false;
     damping = std::max(kLeastDamping, kLessDamping * damping);
-    if (gain < kLeastGain * current_->cost) break;
-    if (current_->cost - gain * (iterations - i - 1) > target) break;
+    if (gain < kLeastGain * cost) break;
+    if (cost - gain * (iterations - i - 1) > target) break;
   }
-  return current_->cost;
+  return cost;
 }
 
 }  // namespace limbcast::pose_fitter::refined

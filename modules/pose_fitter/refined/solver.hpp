@@ -21,14 +21,14 @@ class Solver {
 
   const Observation& observation() const { return observation_; }
   const RefinedParams& params() const { return params_; }
-  long evaluations() const { return evaluations_; }
 
  private:
+  Real cost_at(const BodyState& body, const FitStage& stage);
+
   const Observation& observation_;
   const RefinedParams& params_;
   Workspace workspace_;
-  std::unique_ptr<NormalEquations> current_, trial_;
-  long evaluations_ = 0;
+  std::unique_ptr<NormalEquations> equations_;
 };
 
 }  // namespace limbcast::pose_fitter::refined

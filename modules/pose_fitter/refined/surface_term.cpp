@@ -23,7 +23,6 @@ void add_surface_term(const Cones& cones, const FitStage& stage, Real robust_sig
   const PointColumns& points = *stage.points;
   NearestCones& nearest = workspace.nearest;
   nearest_cones(points, cones, stage.parts, stage.fixed, nearest);
-  const bool derivatives = equations.derivatives();
   const float limit2 = static_cast<float>(robust_sigmas * robust_sigmas);
   const float sigma2 = static_cast<float>(stage.surface_sigma_m * stage.surface_sigma_m);
   std::array<FloatCone, kConeCount> float_cones;
@@ -41,7 +40,7 @@ void add_surface_term(const Cones& cones, const FitStage& stage, Real robust_sig
     const float variance = sigma2 + toward * toward / point.squaredNorm() * sensor * sensor;
     const float ratio = residual * residual / (variance * limit2), shrink = 1.0F / (1.0F + ratio);
     cost += points.weight[i] * 0.5F * limit2 * ratio * shrink;
-    if (!derivatives || !cone.fitted) continue;
+    if (!cone.fitted) continue;
     workspace.cones.add(nearest.cone[i], t, -normal, radius, residual,
                         points.weight[i] * shrink * shrink / variance);
   }
