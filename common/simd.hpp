@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <cstring>
+
 /// Before a function whose loops the compiler is to vectorise: on x86-64 also builds it for AVX2
 /// and takes that one at run time where the processor has it. Elsewhere the baseline's vectors
 /// (arm64: NEON) serve.
@@ -15,6 +18,24 @@
 #endif
 
 namespace limbcast {
+
+/// Eight numbers worked on lane by lane; where vectors are narrower the compiler takes several. Not
+/// by value through functions that are no LIMBCAST_SIMD: how they are passed depends on the
+/// vectors.
+using Float8 = float __attribute__((vector_size(32), may_alias));
+using Int8 = std::int32_t __attribute__((vector_size(32), may_alias));
+
+/// From or to any address.
+template <class Number, class Lanes>
+void load(const Number* from, Lanes& lanes) {
+  static_assert(sizeof(lanes[0]) == sizeof(Number));
+  std::memcpy(&lanes, from, sizeof(lanes));
+}
+template <class Lanes, class Number>
+void store(const Lanes& lanes, Number* to) {
+  static_assert(sizeof(lanes[0]) == sizeof(Number));
+  std::memcpy(to, &lanes, sizeof(lanes));
+}
 
 inline bool counts_bits_of_vectors() {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)

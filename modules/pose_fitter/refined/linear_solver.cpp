@@ -17,7 +17,7 @@ constexpr float kLeastPivot = 1e-3F;
 /// Rows that are eliminated at once. Each adds up its own products in the same order whatever the
 /// width of the processor's vectors, so that steps are the same everywhere.
 constexpr int kRowsAtOnce = 8;
-using Rows = float __attribute__((vector_size(kRowsAtOnce * sizeof(float)), may_alias));
+using Rows = Float8;
 /// Partial sums of a row's products.
 constexpr int kSums = 8;
 

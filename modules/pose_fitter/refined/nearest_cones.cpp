@@ -1,43 +1,65 @@
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/core/hal/intrin.hpp>
 
+#include "common/simd.hpp"
 #include "modules/pose_fitter/refined/cost.hpp"
 
 namespace limbcast::pose_fitter::refined {
 
 namespace {
 
-using cv::v_float32x4;
-using cv::v_int32x4;
+/// A cone in the points' precision.
+struct FloatCone {
+  int index;
+  float from_x, from_y, from_z, axis_x, axis_y, axis_z, inverse_length2, radius, radius_change;
+};
 
-constexpr std::size_t kLanes = 4;
+FloatCone to_float(int index, const Cone& cone) {
+  const Eigen::Vector3f from = cone.from.cast<float>(), axis = cone.axis.cast<float>();
+  return {index,
+          from.x(),
+          from.y(),
+          from.z(),
+          axis.x(),
+          axis.y(),
+          axis.z(),
+          static_cast<float>(cone.inverse_length2),
+          static_cast<float>(cone.radius_from),
+          static_cast<float>(cone.radius_change)};
+}
 
-/// Columns end in a whole vector; what is beyond the points is never read by anybody else.
-std::size_t padded(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
-
-void look_at_cone(const PointColumns& points, const Cone& cone, int index, NearestCones& nearest) {
-  const auto all = [](Real value) { return cv::v_setall_f32(static_cast<float>(value)); };
-  const v_float32x4 from_x = all(cone.from.x()), from_y = all(cone.from.y()),
-                    from_z = all(cone.from.z()), axis_x = all(cone.axis.x()),
-                    axis_y = all(cone.axis.y()), axis_z = all(cone.axis.z()),
-                    inverse_length2 = all(cone.inverse_length2), radius = all(cone.radius_from),
-                    change = all(cone.radius_change), zero = all(0.0), one = all(1.0);
-  const v_int32x4 this_cone = cv::v_setall_s32(index);
-  for (std::size_t i = 0; i < points.size(); i += kLanes) {
-    const v_float32x4 x = cv::v_load(&points.x[i]) - from_x, y = cv::v_load(&points.y[i]) - from_y,
-                      z = cv::v_load(&points.z[i]) - from_z;
-    const v_float32x4 along = (x * axis_x + y * axis_y + z * axis_z) * inverse_length2;
-    const v_float32x4 t = cv::v_min(cv::v_max(along, zero), one);
-    const v_float32x4 ex = x - t * axis_x, ey = y - t * axis_y, ez = z - t * axis_z;
-    const v_float32x4 d = cv::v_sqrt(ex * ex + ey * ey + ez * ez) - (radius + change * t);
-    const v_float32x4 best = cv::v_load(&nearest.distance[i]);
-    const v_float32x4 nearer = d < best;
-    cv::v_store(&nearest.distance[i], cv::v_select(nearer, d, best));
-    cv::v_store(&nearest.place[i], cv::v_select(nearer, t, cv::v_load(&nearest.place[i])));
-    cv::v_store(&nearest.cone[i], cv::v_select(cv::v_reinterpret_as_s32(nearer), this_cone,
-                                               cv::v_load(&nearest.cone[i])));
+LIMBCAST_SIMD void look_at_cones(const PointColumns& points, const FloatCone* begin,
+                                 const FloatCone* end, NearestCones& nearest) {
+  constexpr std::size_t kLanes = 8;
+  const Float8 zero = {}, one = zero + 1.0F;
+  for (std::size_t i = 0; i < points.x.size(); i += kLanes) {
+    Float8 px, py, pz, distance, place;
+    Int8 nearest_cone;
+    load(&points.x[i], px);
+    load(&points.y[i], py);
+    load(&points.z[i], pz);
+    load(&nearest.distance[i], distance);
+    load(&nearest.place[i], place);
+    load(&nearest.cone[i], nearest_cone);
+    for (const FloatCone* cone = begin; cone != end; ++cone) {
+      const Float8 x = px - cone->from_x, y = py - cone->from_y, z = pz - cone->from_z;
+      const Float8 along =
+          (x * cone->axis_x + y * cone->axis_y + z * cone->axis_z) * cone->inverse_length2;
+      const Float8 from_start = along > zero ? along : zero;
+      const Float8 t = from_start < one ? from_start : one;
+      const Float8 ex = x - t * cone->axis_x, ey = y - t * cone->axis_y, ez = z - t * cone->axis_z;
+      Float8 root = ex * ex + ey * ey + ez * ez;
+      for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(root[lane]);
+      const Float8 d = root - (cone->radius + cone->radius_change * t);
+      const Int8 nearer = d < distance;
+      distance = nearer ? d : distance;
+      place = nearer ? t : place;
+      nearest_cone = nearer ? Int8{} + cone->index : nearest_cone;
+    }
+    store(distance, &nearest.distance[i]);
+    store(place, &nearest.place[i]);
+    store(nearest_cone, &nearest.cone[i]);
   }
 }
 
@@ -45,7 +67,7 @@ void look_at_cone(const PointColumns& points, const Cone& cone, int index, Neare
 
 void nearest_cones(const PointColumns& points, const Cones& cones, unsigned parts,
                    const NearestCones* fixed, NearestCones& nearest) {
-  const std::size_t count = padded(points.size());
+  const std::size_t count = points.x.size();
   if (fixed != nullptr) {
     nearest = *fixed;
   } else {
@@ -53,9 +75,12 @@ void nearest_cones(const PointColumns& points, const Cones& cones, unsigned part
     nearest.place.assign(count, 0.0F);
     nearest.cone.assign(count, 0);
   }
+  std::array<FloatCone, kConeCount> looked_at;
+  int used = 0;
   for (int c = 0; c < kConeCount; ++c) {
-    if ((bit(cone_specs()[c].part) & parts) != 0) look_at_cone(points, cones[c], c, nearest);
+    if ((bit(cone_specs()[c].part) & parts) != 0) looked_at[used++] = to_float(c, cones[c]);
   }
+  look_at_cones(points, looked_at.data(), looked_at.data() + used, nearest);
 }
 
 }  // namespace limbcast::pose_fitter::refined

@@ -231,7 +231,7 @@ float Observation::smooth_surface_m(const SeenJoint& seen) const {
 }
 
 void PointColumns::pad() {
-  for (std::vector<float>* column : {&x, &y, &z}) column->resize((size() + 3) / 4 * 4, 0.0F);
+  for (std::vector<float>* column : {&x, &y, &z}) column->resize((size() + 7) / 8 * 8, 0.0F);
 }
 
 std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,

@@ -11,7 +11,7 @@
 namespace limbcast::pose_fitter::refined {
 
 /// Points in columns, so that several are worked on at once: memory reaches to a whole vector of
-/// four.
+/// eight.
 struct PointColumns {
   std::vector<float> x, y, z;  ///< [m]
   std::vector<float> weight;   ///< area that the point stands for, in units of 18 cm^2
