@@ -126,6 +126,9 @@ ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params
 }
 
 void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {
+  if (explained == marked_parts_ && body == marked_body_) return;
+  marked_body_ = body;
+  marked_parts_ = explained;
   nearest_cones(grid_points_, make_cones_of(body), explained, nullptr, nearest_);
   unexplained_.assign(static_cast<std::size_t>(grid_width_) * grid_height_, 0.0F);
   for (std::size_t i = 0; i < grid_points_.size(); ++i) {

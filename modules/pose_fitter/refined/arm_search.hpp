@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "modules/pose_fitter/refined/cost.hpp"
@@ -41,6 +42,9 @@ class ArmSearch {
   PointColumns grid_points_;        ///< own points, one of each cell
   std::vector<int> grid_cells_;     ///< their cells
   std::vector<float> unexplained_;  ///< by cell, 0 to 1
+  /// For which these are marked: both arms of a start are looked for beside the same parts.
+  std::optional<BodyState> marked_body_;
+  unsigned marked_parts_ = 0;
   NearestCones nearest_;
 };
 

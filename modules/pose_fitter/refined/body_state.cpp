@@ -31,6 +31,11 @@ void hang_pair(BodyState& body, int point, int from, const Vec3& left) {
 
 }  // namespace
 
+bool operator==(const BodyState& a, const BodyState& b) {
+  return a.points == b.points && a.log_stature == b.log_stature && a.log_girth == b.log_girth &&
+         a.rotation == b.rotation;
+}
+
 BodyState moved(const BodyState& body, const Step& step) {
   BodyState result = body;
   for (int i = 0; i < kPointCount; ++i) result.points[i] += step.segment<3>(3 * i);

@@ -23,6 +23,8 @@ struct BodyState {
   Vec3 front() const { return rotation.col(2); }
 };
 
+bool operator==(const BodyState& a, const BodyState& b);
+
 BodyState moved(const BodyState& body, const Step& step);
 
 /// The neck's height over the shoulders of hanging arms, in statures.

@@ -56,8 +56,11 @@ FitStage PoseMoves::final_stage() const {
   return {&observation_.fine, kAllParts, params_.surface_sigma_m};
 }
 
-std::vector<BodyState> PoseMoves::fitted_arms(const BodyState& body, int side, unsigned explained,
-                                              int postures, int count) {
+const std::vector<PoseCandidate>& PoseMoves::fit_arms(const BodyState& body, int side,
+                                                      unsigned explained, int postures) {
+  FittedArms& last = fitted_arms_[side];
+  if (last.postures == postures && last.explained == explained && last.body == body)
+    return last.fits;
   NearestCones fixed;
   nearest_cones(observation_.coarse, make_cones_of(body), explained, nullptr, fixed);
   const FitStage stage{&observation_.coarse, arm_bit(side), params_.arm_search_surface_sigma_m,
@@ -75,8 +78,14 @@ std::vector<BodyState> PoseMoves::fitted_arms(const BodyState& body, int side, u
   for (PoseCandidate& pose : fitted)
     pose.cost = solver_.minimize(pose.body, stage, kArmIterations - kFirstArmIterations);
   sort_by_cost(fitted);
+  last = {body, explained, postures, std::move(fitted)};
+  return last.fits;
+}
+
+std::vector<BodyState> PoseMoves::fitted_arms(const BodyState& body, int side, unsigned explained,
+                                              int postures, int count) {
   std::vector<BodyState> best;
-  for (const PoseCandidate& pose : fitted) {
+  for (const PoseCandidate& pose : fit_arms(body, side, explained, postures)) {
     const bool known = std::any_of(best.begin(), best.end(), [&](const BodyState& other) {
       return same_arm(pose.body, other, side);
     });

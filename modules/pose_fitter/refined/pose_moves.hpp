@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "modules/pose_fitter/refined/arm_search.hpp"
@@ -44,17 +45,29 @@ class PoseMoves {
   PoseCandidate flipped(const BodyState& body);
   bool try_legs(PoseCandidate& pose);
   bool try_arm(PoseCandidate& pose, int side);
-  /// The best `count` arms of `side` after fitting the arm alone to what the `explained` parts
-  /// leave.
+  /// Fits of the arm of `side` alone to what the `explained` parts leave, best first.
+  const std::vector<PoseCandidate>& fit_arms(const BodyState& body, int side, unsigned explained,
+                                             int postures);
+  /// The best `count` of them that differ.
   std::vector<BodyState> fitted_arms(const BodyState& body, int side, unsigned explained,
                                      int postures, int count);
   bool accept(BodyState body, int iterations, PoseCandidate& pose);
+
+  /// What was fitted to a side last: the arms of a body whose moves fail are asked for once more as
+  /// evidence.
+  struct FittedArms {
+    BodyState body;
+    unsigned explained = 0;
+    int postures = 0;
+    std::vector<PoseCandidate> fits;
+  };
 
   const Observation& observation_;
   const RefinedParams& params_;
   const SearchEffort& effort_;
   Solver solver_;
   ArmSearch arms_;
+  std::array<FittedArms, 2> fitted_arms_;  ///< of each side
 };
 
 }  // namespace limbcast::pose_fitter::refined
