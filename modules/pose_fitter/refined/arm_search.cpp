@@ -123,6 +123,12 @@ ArmSearch::ArmSearch(const Observation& observation, const RefinedParams& params
     }
   }
   grid_points_.pad();
+  for (int u = 0; u < camera.width; ++u) columns_.push_back(u / cell_px_);
+  for (int v = 0; v < camera.height; ++v) row_starts_.push_back(v / cell_px_ * grid_width_);
+  for (int k = 0; k < kSwivels; ++k) {
+    const Real angle_rad = 2.0 * M_PI * k / kSwivels;
+    swivels_.emplace_back(std::cos(angle_rad), std::sin(angle_rad));
+  }
 }
 
 void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {
@@ -146,30 +152,33 @@ Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
   if (!observation_.in_sensor_image(u, v)) return kOutsideImage;
   if (!observation_.inside(u, v)) return kImpossible;
   const std::size_t pixel = observation_.at(u, v);
-  Real cost = 0.0;
+  const Real surface = observation_.surface_m[pixel];
+  const float unexplained = unexplained_[row_starts_[v] + columns_[u]];
+  // Choices between numbers, not between ways: which way a sample goes cannot be foreseen.
   const Real outside =
       (0.6 * radius - observation_.clearance_px[pixel] * center.z() / camera.fx) / 0.03;
-  if (outside > 0.0) cost += std::min(kImpossible, outside * outside);
-  const Real surface = observation_.surface_m[pixel];
-  if (surface <= 0.0) return cost + kInHole;
+  const Real outside_cost = outside > 0.0 ? std::min(kImpossible, outside * outside) : 0.0;
   const Real behind = center.z() - 0.85 * radius - surface;
   const Real sigma = 0.04 + observation_.noise.sigma_m(static_cast<float>(surface));
   const Real sigmas2 = behind * behind / (sigma * sigma);
-  cost += behind < 0.0 ? std::min(kImpossible, sigmas2) : std::min(1.0, 0.6 * sigmas2);
-  if (sigmas2 < 4.0) {
-    const float unexplained =
-        unexplained_[static_cast<std::size_t>(v / cell_px_) * grid_width_ + u / cell_px_];
-    cost -= kUnexplainedReward * unexplained * (1.0 - 0.25 * sigmas2);
-  }
-  return cost;
+  const Real before_cost = std::min(kImpossible, sigmas2),
+             behind_cost = std::min(1.0, 0.6 * sigmas2);
+  const Real reward = kUnexplainedReward * unexplained * (1.0 - 0.25 * sigmas2);
+  const Real surface_cost = outside_cost + (behind < 0.0 ? before_cost : behind_cost);
+  const Real cost = surface_cost - (sigmas2 < 4.0 ? reward : 0.0);
+  return surface > 0.0 ? cost : outside_cost + kInHole;
 }
 
-Real ArmSearch::image_cost_of(const Frame& arm, const Vec3& elbow, const Vec3& wrist) const {
+ArmSearch::ImageCosts ArmSearch::image_costs(const Frame& arm, int joint, const Vec3& point) const {
+  ImageCosts costs{};
+  for (std::size_t i = 0; i < arm.seen.size(); ++i)
+    costs[i] = image_cost(arm.seen[i].look, joint + arm.seen[i].side, point, params_);
+  return costs;
+}
+
+Real ArmSearch::sum(const ImageCosts& of_elbow, const ImageCosts& of_wrist) {
   Real cost = 0.0;
-  for (const SeenArm& seen : arm.seen) {
-    cost += image_cost(seen.look, kElbow + seen.side, elbow, params_) +
-            image_cost(seen.look, kWrist + seen.side, wrist, params_);
-  }
+  for (std::size_t i = 0; i < of_elbow.size(); ++i) cost += of_elbow[i] + of_wrist[i];
   return cost;
 }
 
@@ -182,6 +191,7 @@ void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) 
         sample_cost(arm.shoulder + 0.5 * upper * upper_direction, kUpperArmRadius * arm.stature) +
         sample_cost(elbow, kElbowRadius * arm.stature);
     if (half_cost > kHalfArmLimit) continue;
+    const ImageCosts elbow_in_image = image_costs(arm, kElbow, elbow);
     for (const Vec3& fore_direction : directions_) {
       if (upper_direction.dot(fore_direction) < -0.82) continue;
       const Vec3 wrist = elbow + fore * fore_direction;
@@ -193,7 +203,7 @@ void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) 
       if (cost > kArmLimit) continue;
       cost +=
           sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
-          Frame::elbow_cost(ahead) + image_cost_of(arm, elbow, wrist);
+          Frame::elbow_cost(ahead) + sum(elbow_in_image, image_costs(arm, kWrist, wrist));
       found.push_back({cost, elbow, wrist});
     }
   }
@@ -218,11 +228,12 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
     height = std::sqrt(std::max(0.0, upper * upper - to_foot * to_foot));
   }
   const Vec3 first = along.cross(arm.up).normalized(), second = along.cross(first);
+  const Real wrist_cost = sample_cost(wrist, kWristRadius * arm.stature);
+  const ImageCosts wrist_in_image = image_costs(arm, kWrist, wrist);
   const int swivels = height < 0.02 * arm.stature ? 1 : kSwivels;
   for (int k = 0; k < swivels; ++k) {
-    const Real angle = 2.0 * M_PI * k / kSwivels;
-    const Vec3 elbow =
-        shoulder + along * to_foot + height * (std::cos(angle) * first + std::sin(angle) * second);
+    const auto [cosine, sine] = swivels_[k];
+    const Vec3 elbow = shoulder + along * to_foot + height * (cosine * first + sine * second);
     const Real ahead = arm.elbow_ahead(elbow, wrist);
     if (ahead > kElbowAheadLimit) continue;
     const Vec3 upper_direction = (elbow - shoulder) / upper;
@@ -231,11 +242,12 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
     const Real cost =
         sample_cost(0.5 * (shoulder + elbow), kUpperArmRadius * arm.stature) +
         sample_cost(elbow, kElbowRadius * arm.stature) +
-        sample_cost(0.5 * (elbow + wrist), kForearmRadius * arm.stature) +
-        sample_cost(wrist, kWristRadius * arm.stature) +
+        sample_cost(0.5 * (elbow + wrist), kForearmRadius * arm.stature) + wrist_cost +
         sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
         Frame::elbow_cost(ahead);
-    if (cost < kArmLimit) found.push_back({cost + image_cost_of(arm, elbow, wrist), elbow, wrist});
+    if (cost < kArmLimit) {
+      found.push_back({cost + sum(image_costs(arm, kElbow, elbow), wrist_in_image), elbow, wrist});
+    }
   }
 }
 

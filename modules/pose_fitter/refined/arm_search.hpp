@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "modules/pose_fitter/refined/cost.hpp"
@@ -32,16 +33,21 @@ class ArmSearch {
   void by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const;
   void reach_seen_wrist(const Frame& arm, const SeenJoint& seen,
                         std::vector<ArmPosture>& found) const;
-  Real image_cost_of(const Frame& arm, const Vec3& elbow, const Vec3& wrist) const;
+  /// What each network says against a joint at a point.
+  using ImageCosts = std::array<Real, kImageNetworkCount>;
+  ImageCosts image_costs(const Frame& arm, int joint, const Vec3& point) const;
+  static Real sum(const ImageCosts& of_elbow, const ImageCosts& of_wrist);
   void reach(const Frame& arm, const Vec3& wrist_surface, std::vector<ArmPosture>& found) const;
 
   const Observation& observation_;
   const RefinedParams& params_;
   std::vector<Vec3> directions_;
+  std::vector<std::pair<Real, Real>> swivels_;  ///< cosine and sine
   int cell_px_ = 1, grid_width_ = 0, grid_height_ = 0;
-  PointColumns grid_points_;        ///< own points, one of each cell
-  std::vector<int> grid_cells_;     ///< their cells
-  std::vector<float> unexplained_;  ///< by cell, 0 to 1
+  std::vector<int> columns_, row_starts_;  ///< of the cells, by pixel
+  PointColumns grid_points_;               ///< own points, one of each cell
+  std::vector<int> grid_cells_;            ///< their cells
+  std::vector<float> unexplained_;         ///< by cell, 0 to 1
   /// For which these are marked: both arms of a start are looked for beside the same parts.
   std::optional<BodyState> marked_body_;
   unsigned marked_parts_ = 0;
