@@ -155,9 +155,9 @@ Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
   const Real surface = observation_.surface_m[pixel];
   const float unexplained = unexplained_[row_starts_[v] + columns_[u]];
   // Choices between numbers, not between ways: which way a sample goes cannot be foreseen.
-  const Real outside =
-      (0.6 * radius - observation_.clearance_px[pixel] * center.z() / camera.fx) / 0.03;
-  const Real outside_cost = outside > 0.0 ? std::min(kImpossible, outside * outside) : 0.0;
+  const Real outside = std::max(
+      0.0, (0.6 * radius - observation_.clearance_px[pixel] * center.z() / camera.fx) / 0.03);
+  const Real outside_cost = std::min(kImpossible, outside * outside);
   const Real behind = center.z() - 0.85 * radius - surface;
   const Real sigma = 0.04 + observation_.noise.sigma_m(static_cast<float>(surface));
   const Real sigmas2 = behind * behind / (sigma * sigma);

@@ -4,8 +4,8 @@
 
 namespace limbcast::pose_fitter::refined {
 
-/// Sum of squared residuals with its Gauss-Newton normal equations; only the lower triangle is
-/// kept.
+/// Sum of squared residuals with its Gauss-Newton normal equations; of the Hessian the lower
+/// triangle counts.
 class NormalEquations {
  public:
   Eigen::Matrix<Real, kUnknownCount, kUnknownCount> hessian = decltype(hessian)::Zero();
@@ -60,23 +60,27 @@ class NormalEquations {
 
   /// The row alone, without what the residual costs.
   void add_row(Real residual, Real information) {
+    std::array<Real, kMostInRow> weighted;
     for (int a = 0; a < count_; ++a) {
-      const Real weighted = values_[a] * information;
-      gradient[unknowns_[a]] += weighted * residual;
-      for (int b = 0; b < count_; ++b) {
-        // An unknown may stand in a row twice; each ordered pair adds to the lower triangle once.
-        if (unknowns_[b] <= unknowns_[a])
-          hessian(unknowns_[a], unknowns_[b]) += weighted * values_[b];
-      }
+      weighted[a] = values_[a] * information;
+      gradient[unknowns_[a]] += weighted[a] * residual;
+    }
+    // An unknown may stand in a row twice: each ordered pair adds once. Adding to the upper
+    // triangle too is faster than asking.
+    for (int b = 0; b < count_; ++b) {
+      Real* const column = &hessian(0, unknowns_[b]);
+      for (int a = 0; a < count_; ++a) column[unknowns_[a]] += weighted[a] * values_[b];
     }
   }
 
  private:
+  static constexpr int kMostInRow = 48;
+
   bool derivatives_ = false;
   std::array<bool, kUnknownCount> wanted_{};
   int count_ = 0;
-  std::array<int, 48> unknowns_;
-  std::array<Real, 48> values_;
+  std::array<int, kMostInRow> unknowns_;
+  std::array<Real, kMostInRow> values_;
 };
 
 }  // namespace limbcast::pose_fitter::refined
