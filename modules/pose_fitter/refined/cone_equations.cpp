@@ -156,8 +156,18 @@ void add_size_and_rotation(const OwnEquations& own, const ConePoints& cone,
 
 }  // namespace
 
+void ConeEquations::Columns::resize(std::size_t size) {
+  cone.resize(size);
+  for (auto* column : {&t, &x, &y, &z, &radius, &residual, &information}) column->resize(size);
+}
+
 void ConeEquations::add_to(const BodyState& body, NormalEquations& equations) const {
   std::array<Sums, kConeCount> sums;
+  for (std::size_t i = 0; i < many_.cone.size(); ++i) {
+    if (many_.cone[i] < 0) continue;
+    sums[many_.cone[i]].add(many_.t[i], {many_.x[i], many_.y[i], many_.z[i]}, many_.radius[i],
+                            many_.residual[i], many_.information[i]);
+  }
   for (const Row& row : rows_)
     sums[row.cone].add(row.t, row.normal, row.radius, row.residual, row.information);
   const Real stature_m = body.stature_m();

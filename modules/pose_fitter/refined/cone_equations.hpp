@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "modules/pose_fitter/refined/body_state.hpp"
@@ -13,7 +14,19 @@ namespace limbcast::pose_fitter::refined {
 /// them.
 class ConeEquations {
  public:
-  void clear() { rows_.clear(); }
+  /// Residuals of which there are many, in columns; cone: -1 of those that do not count.
+  struct Columns {
+    std::vector<std::int32_t> cone;
+    std::vector<float> t, x, y, z, radius, residual, information;
+    void resize(std::size_t size);
+  };
+
+  void clear() {
+    many_.resize(0);
+    rows_.clear();
+  }
+  /// Are summed before what is added one by one.
+  Columns& many() { return many_; }
   /// A residual that changes by `normal` per metre of the axis point at `t` and by -`radius` per
   /// unit of the logarithm of the size.
   void add(int cone, float t, const Eigen::Vector3f& normal, float radius, float residual,
@@ -29,6 +42,7 @@ class ConeEquations {
     Eigen::Vector3f normal;
     float radius, residual, information;
   };
+  Columns many_;
   std::vector<Row> rows_;
 };
 

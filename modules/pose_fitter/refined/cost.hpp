@@ -38,6 +38,7 @@ struct CostTerms {
 struct Workspace {
   Cones body_cones;
   NearestCones nearest;
+  std::vector<float> costs;  ///< of the points
   ConeEquations cones;
 };
 
