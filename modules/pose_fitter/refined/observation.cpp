@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
+#include <cstdint>
+#include <opencv2/core/fast_math.hpp>
+
+#include "modules/pose_fitter/refined/chamfer_distance.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -96,7 +98,8 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
   observation.origin_v = image.origin_v + v0;
   observation.full_width = image.full_width;
   observation.full_height = image.full_height;
-  cv::Mat may_stand(camera.height, camera.width, CV_8U);
+  std::vector<std::uint8_t> may_stand;
+  may_stand.reserve(static_cast<std::size_t>(camera.width) * camera.height);
   observation.surface_m.assign(static_cast<std::size_t>(camera.width) * camera.height, 0.0F);
   observation.seen_m = observation.measured_m = observation.surface_m;
   for (int v = 0; v < camera.height; ++v) {
@@ -118,14 +121,13 @@ void make_grids(const RangeImage& image, const Box& box, float head_z, float med
           observation.seen_m[observation.at(u, v)] = z;
         }
       }
-      may_stand.at<std::uint8_t>(v, u) = free;
+      may_stand.push_back(free);
     }
   }
-  cv::Mat inwards, outwards;
-  cv::distanceTransform(may_stand, inwards, cv::DIST_L2, 3);
-  cv::distanceTransform(1 - may_stand, outwards, cv::DIST_L2, 3);
-  const cv::Mat clearance = inwards - outwards;
-  observation.clearance_px.assign(clearance.begin<float>(), clearance.end<float>());
+  observation.clearance_px = chamfer_distance(may_stand, camera.width, camera.height);
+  for (std::uint8_t& free : may_stand) free = 1 - free;
+  const std::vector<float> outwards = chamfer_distance(may_stand, camera.width, camera.height);
+  for (std::size_t i = 0; i < outwards.size(); ++i) observation.clearance_px[i] -= outwards[i];
 }
 
 /// Face and bare hands show some skin; fewer pixels tell of none.
@@ -133,21 +135,19 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
   constexpr int kLeastPixels = 20;
   if (image.is_skin.empty()) return;
   const PinholeCamera& camera = observation.camera;
-  cv::Mat no_skin(camera.height, camera.width, CV_8U, cv::Scalar(1));
+  std::vector<std::uint8_t> no_skin(observation.surface_m.size(), 1);
   int count = 0;
   for (int v = kMarginPx; v < camera.height - kMarginPx; ++v) {
     for (int u = kMarginPx; u < camera.width - kMarginPx; ++u) {
       const std::size_t i = static_cast<std::size_t>(v + box.v0 - kMarginPx) * image.camera.width +
                             u + box.u0 - kMarginPx;
       if (image.is_skin[i] == 0 || observation.surface_m[observation.at(u, v)] <= 0.0F) continue;
-      no_skin.at<std::uint8_t>(v, u) = 0;
+      no_skin[observation.at(u, v)] = 0;
       ++count;
     }
   }
   if (count < kLeastPixels) return;
-  cv::Mat distance;
-  cv::distanceTransform(no_skin, distance, cv::DIST_L2, 3);
-  observation.skin_distance_px.assign(distance.begin<float>(), distance.end<float>());
+  observation.skin_distance_px = chamfer_distance(no_skin, camera.width, camera.height);
 }
 
 void set_looks(const Segment& segment, const RangeImage& image, const RefinedParams& params,
