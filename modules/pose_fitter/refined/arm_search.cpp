@@ -20,10 +20,8 @@ constexpr int kMostCellPx = 3;
 constexpr Real kUpperArm = 0.147, kForearm = 0.1465, kToHand = 0.05;
 constexpr Real kUpperArmRadius = 0.030, kElbowRadius = 0.026, kForearmRadius = 0.022,
                kWristRadius = 0.018;
-/// A sample that cannot be: cost.
-constexpr Real kImpossible = 4.0;
-constexpr Real kOutsideImage = 0.8, kInHole = 0.5;
-constexpr Real kUnexplainedReward = 1.5;
+/// Spread of the surface about an arm that is only guessed [m].
+constexpr Real kSampleSigmaM = 0.04;
 /// Costs beyond which a half arm, a whole arm is given up.
 constexpr Real kHalfArmLimit = 6.0, kArmLimit = 8.0;
 /// An elbow may stand so far before the line shoulder-wrist [statures].
@@ -143,30 +141,25 @@ void ArmSearch::mark_unexplained(const BodyState& body, unsigned explained) {
   }
 }
 
-Real ArmSearch::sample_cost(const Vec3& center, Real radius) const {
-  if (center.z() < 0.3) return kImpossible;
-  const PinholeCamera& camera = observation_.camera;
-  const Real inverse_z = 1.0 / center.z();
-  const int u = cvRound(camera.fx * center.x() * inverse_z + camera.cx);
-  const int v = cvRound(camera.fy * center.y() * inverse_z + camera.cy);
-  if (!observation_.in_sensor_image(u, v)) return kOutsideImage;
-  if (!observation_.inside(u, v)) return kImpossible;
-  const std::size_t pixel = observation_.at(u, v);
-  const Real surface = observation_.surface_m[pixel];
-  const float unexplained = unexplained_[row_starts_[v] + columns_[u]];
-  // Choices between numbers, not between ways: which way a sample goes cannot be foreseen.
-  const Real outside = std::max(
-      0.0, (0.6 * radius - observation_.clearance_px[pixel] * center.z() / camera.fx) / 0.03);
-  const Real outside_cost = std::min(kImpossible, outside * outside);
-  const Real behind = center.z() - 0.85 * radius - surface;
-  const Real sigma = 0.04 + observation_.noise.sigma_m(static_cast<float>(surface));
-  const Real sigmas2 = behind * behind / (sigma * sigma);
-  const Real before_cost = std::min(kImpossible, sigmas2),
-             behind_cost = std::min(1.0, 0.6 * sigmas2);
-  const Real reward = kUnexplainedReward * unexplained * (1.0 - 0.25 * sigmas2);
-  const Real surface_cost = outside_cost + (behind < 0.0 ? before_cost : behind_cost);
-  const Real cost = surface_cost - (sigmas2 < 4.0 ? reward : 0.0);
-  return surface > 0.0 ? cost : outside_cost + kInHole;
+void ArmSearch::look_at_samples() {
+  find_pixels(observation_, samples_);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const int u = static_cast<int>(samples_.u[i]), v = static_cast<int>(samples_.v[i]);
+    const std::size_t pixel = observation_.at(u, v);
+    const float surface_m = observation_.surface_m[pixel];
+    samples_.clearance_px[i] = observation_.clearance_px[pixel];
+    samples_.surface_m[i] = surface_m;
+    samples_.sigma_m[i] = kSampleSigmaM + observation_.noise.sigma_m(surface_m);
+    samples_.unexplained[i] = unexplained_[row_starts_[v] + columns_[u]];
+  }
+  weigh(observation_.camera.fx, samples_);
+}
+
+Real ArmSearch::sample_cost(const Vec3& center, Real radius) {
+  samples_.clear();
+  samples_.add(center, radius);
+  look_at_samples();
+  return samples_.cost.front();
 }
 
 ArmSearch::ImageCosts ArmSearch::image_costs(const Frame& arm, int joint, const Vec3& point) const {
@@ -182,34 +175,47 @@ Real ArmSearch::sum(const ImageCosts& of_elbow, const ImageCosts& of_wrist) {
   return cost;
 }
 
-void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) const {
-  const Real upper = kUpperArm * arm.stature, fore = kForearm * arm.stature;
+void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) {
+  const Real upper = kUpperArm * arm.stature;
   for (const Vec3& upper_direction : directions_) {
     if (!arm.upper_arm_possible(upper_direction)) continue;
     const Vec3 elbow = arm.shoulder + upper * upper_direction;
     const Real half_cost =
         sample_cost(arm.shoulder + 0.5 * upper * upper_direction, kUpperArmRadius * arm.stature) +
         sample_cost(elbow, kElbowRadius * arm.stature);
-    if (half_cost > kHalfArmLimit) continue;
-    const ImageCosts elbow_in_image = image_costs(arm, kElbow, elbow);
-    for (const Vec3& fore_direction : directions_) {
-      if (upper_direction.dot(fore_direction) < -0.82) continue;
-      const Vec3 wrist = elbow + fore * fore_direction;
-      const Real ahead = arm.elbow_ahead(elbow, wrist);
-      if (ahead > kElbowAheadLimit) continue;
-      Real cost = half_cost +
-                  sample_cost(elbow + 0.5 * fore * fore_direction, kForearmRadius * arm.stature) +
-                  sample_cost(wrist, kWristRadius * arm.stature);
-      if (cost > kArmLimit) continue;
-      cost +=
-          sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
-          Frame::elbow_cost(ahead) + sum(elbow_in_image, image_costs(arm, kWrist, wrist));
-      found.push_back({cost, elbow, wrist});
-    }
+    if (half_cost <= kHalfArmLimit) add_forearms(arm, upper_direction, elbow, half_cost, found);
   }
 }
 
-void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPosture>& found) const {
+void ArmSearch::add_forearms(const Frame& arm, const Vec3& upper_direction, const Vec3& elbow,
+                             Real half_cost, std::vector<ArmPosture>& found) {
+  const Real fore = kForearm * arm.stature;
+  tried_.clear();
+  samples_.clear();
+  for (const Vec3& direction : directions_) {
+    if (upper_direction.dot(direction) < -0.82) continue;
+    const Vec3 wrist = elbow + fore * direction;
+    const Real ahead = arm.elbow_ahead(elbow, wrist);
+    if (ahead > kElbowAheadLimit) continue;
+    tried_.push_back({Frame::elbow_cost(ahead), elbow, wrist});
+    samples_.add(elbow + 0.5 * fore * direction, kForearmRadius * arm.stature);
+    samples_.add(wrist, kWristRadius * arm.stature);
+    samples_.add(wrist + kToHand * arm.stature * direction, kWristRadius * arm.stature);
+  }
+  look_at_samples();
+  const ImageCosts elbow_in_image = image_costs(arm, kElbow, elbow);
+  const Real* sample = samples_.cost.data();
+  for (const ArmPosture& tried : tried_) {
+    const Real forearm_cost = *sample++, wrist_cost = *sample++, hand_cost = *sample++;
+    const Real cost = half_cost + forearm_cost + wrist_cost;
+    if (cost > kArmLimit) continue;
+    const Real more =
+        hand_cost + tried.cost + sum(elbow_in_image, image_costs(arm, kWrist, tried.wrist));
+    found.push_back({cost + more, elbow, tried.wrist});
+  }
+}
+
+void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPosture>& found) {
   const Real upper = kUpperArm * arm.stature, fore = kForearm * arm.stature;
   Vec3 wrist = surface * (1.0 + kWristRadius * arm.stature / surface.norm());
   // The shoulder as it stands when the arm goes there.
@@ -228,9 +234,8 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
     height = std::sqrt(std::max(0.0, upper * upper - to_foot * to_foot));
   }
   const Vec3 first = along.cross(arm.up).normalized(), second = along.cross(first);
-  const Real wrist_cost = sample_cost(wrist, kWristRadius * arm.stature);
-  const ImageCosts wrist_in_image = image_costs(arm, kWrist, wrist);
   const int swivels = height < 0.02 * arm.stature ? 1 : kSwivels;
+  tried_.clear();
   for (int k = 0; k < swivels; ++k) {
     const auto [cosine, sine] = swivels_[k];
     const Vec3 elbow = shoulder + along * to_foot + height * (cosine * first + sine * second);
@@ -238,27 +243,45 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
     if (ahead > kElbowAheadLimit) continue;
     const Vec3 upper_direction = (elbow - shoulder) / upper;
     if (upper_direction.dot(arm.outwards) < -0.8 || upper_direction.dot(arm.front) < -0.8) continue;
-    const Vec3 fore_direction = (wrist - elbow).normalized();
+    tried_.push_back({Frame::elbow_cost(ahead), elbow, wrist});
+  }
+  add_reaching(arm, shoulder, wrist, found);
+}
+
+void ArmSearch::add_reaching(const Frame& arm, const Vec3& shoulder, const Vec3& wrist,
+                             std::vector<ArmPosture>& found) {
+  samples_.clear();
+  samples_.add(wrist, kWristRadius * arm.stature);
+  for (const ArmPosture& tried : tried_) {
+    const Vec3 fore_direction = (wrist - tried.elbow).normalized();
+    samples_.add(0.5 * (shoulder + tried.elbow), kUpperArmRadius * arm.stature);
+    samples_.add(tried.elbow, kElbowRadius * arm.stature);
+    samples_.add(0.5 * (tried.elbow + wrist), kForearmRadius * arm.stature);
+    samples_.add(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature);
+  }
+  look_at_samples();
+  const ImageCosts wrist_in_image = image_costs(arm, kWrist, wrist);
+  const Real* sample = samples_.cost.data();
+  const Real wrist_cost = *sample++;
+  for (const ArmPosture& tried : tried_) {
+    const Real upper_arm_cost = *sample++, elbow_cost = *sample++, forearm_cost = *sample++,
+               hand_cost = *sample++;
     const Real cost =
-        sample_cost(0.5 * (shoulder + elbow), kUpperArmRadius * arm.stature) +
-        sample_cost(elbow, kElbowRadius * arm.stature) +
-        sample_cost(0.5 * (elbow + wrist), kForearmRadius * arm.stature) + wrist_cost +
-        sample_cost(wrist + kToHand * arm.stature * fore_direction, kWristRadius * arm.stature) +
-        Frame::elbow_cost(ahead);
-    if (cost < kArmLimit) {
-      found.push_back({cost + sum(image_costs(arm, kElbow, elbow), wrist_in_image), elbow, wrist});
-    }
+        upper_arm_cost + elbow_cost + forearm_cost + wrist_cost + hand_cost + tried.cost;
+    if (cost >= kArmLimit) continue;
+    const Real in_image = sum(image_costs(arm, kElbow, tried.elbow), wrist_in_image);
+    found.push_back({cost + in_image, tried.elbow, wrist});
   }
 }
 
 void ArmSearch::reach_seen_wrist(const Frame& arm, const SeenJoint& seen,
-                                 std::vector<ArmPosture>& found) const {
+                                 std::vector<ArmPosture>& found) {
   if (seen.visibility <= 0.0) return;
   const float z = observation_.smooth_surface_m(seen);
   if (z > 0.0F) reach(arm, seen.ray * (z / seen.ray.z()), found);
 }
 
-void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const {
+void ArmSearch::by_reaching(const Frame& arm, std::vector<ArmPosture>& found) {
   const auto point = [&](std::size_t i) {
     return Vec3(grid_points_.x[i], grid_points_.y[i], grid_points_.z[i]);
   };

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/pose_fitter/refined/arm_samples.hpp"
 #include "modules/pose_fitter/refined/cost.hpp"
 
 namespace limbcast::pose_fitter::refined {
@@ -27,17 +28,23 @@ class ArmSearch {
  private:
   struct SeenArm;
   struct Frame;
-  void mark_unexplained(const BodyState& body, unsigned explained);
-  Real sample_cost(const Vec3& center, Real radius) const;
-  void by_directions(const Frame& arm, std::vector<ArmPosture>& found) const;
-  void by_reaching(const Frame& arm, std::vector<ArmPosture>& found) const;
-  void reach_seen_wrist(const Frame& arm, const SeenJoint& seen,
-                        std::vector<ArmPosture>& found) const;
   /// What each network says against a joint at a point.
   using ImageCosts = std::array<Real, kImageNetworkCount>;
+
+  void mark_unexplained(const BodyState& body, unsigned explained);
+  void look_at_samples();
+  Real sample_cost(const Vec3& center, Real radius);
   ImageCosts image_costs(const Frame& arm, int joint, const Vec3& point) const;
   static Real sum(const ImageCosts& of_elbow, const ImageCosts& of_wrist);
-  void reach(const Frame& arm, const Vec3& wrist_surface, std::vector<ArmPosture>& found) const;
+  void by_directions(const Frame& arm, std::vector<ArmPosture>& found);
+  void add_forearms(const Frame& arm, const Vec3& upper_direction, const Vec3& elbow,
+                    Real half_cost, std::vector<ArmPosture>& found);
+  void by_reaching(const Frame& arm, std::vector<ArmPosture>& found);
+  void reach_seen_wrist(const Frame& arm, const SeenJoint& seen, std::vector<ArmPosture>& found);
+  void reach(const Frame& arm, const Vec3& wrist_surface, std::vector<ArmPosture>& found);
+  /// Those of `tried_` that are possible.
+  void add_reaching(const Frame& arm, const Vec3& shoulder, const Vec3& wrist,
+                    std::vector<ArmPosture>& found);
 
   const Observation& observation_;
   const RefinedParams& params_;
@@ -52,6 +59,8 @@ class ArmSearch {
   std::optional<BodyState> marked_body_;
   unsigned marked_parts_ = 0;
   NearestCones nearest_;
+  ArmSamples samples_;
+  std::vector<ArmPosture> tried_;  ///< with what the elbow's place costs
 };
 
 void set_arm(BodyState& body, int side, const ArmPosture& posture);
