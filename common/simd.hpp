@@ -17,6 +17,13 @@
 #define LIMBCAST_BIT_COUNTING_SIMD
 #endif
 
+/// Before a loop whose rounds do not read what others write.
+#if defined(__clang__)
+#define LIMBCAST_INDEPENDENT_ROUNDS _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define LIMBCAST_INDEPENDENT_ROUNDS _Pragma("GCC ivdep")
+#endif
+
 namespace limbcast {
 
 /// Eight numbers worked on lane by lane; where vectors are narrower the compiler takes several. Not

@@ -21,11 +21,14 @@ LIMBCAST_SIMD void project(const Observation& observation, ArmSamples& samples) 
   const Real width = camera.width, height = camera.height;
   const Real left = -observation.origin_u, top = -observation.origin_v;
   const Real right = left + observation.full_width, bottom = top + observation.full_height;
-  const Real *const x = samples.x.data(), *const y = samples.y.data(), *const z = samples.z.data();
-  Real *const pixel_u = samples.u.data(), *const pixel_v = samples.v.data(),
-              *const elsewhere = samples.elsewhere.data();
+  const Real* const x = samples.x.data();
+  const Real* const y = samples.y.data();
+  const Real* const z = samples.z.data();
+  Real* const pixel_u = samples.u.data();
+  Real* const pixel_v = samples.v.data();
+  Real* const elsewhere = samples.elsewhere.data();
   const std::size_t count = samples.size();
-#pragma GCC ivdep
+  LIMBCAST_INDEPENDENT_ROUNDS
   for (std::size_t i = 0; i < count; ++i) {
     const Real inverse_z = 1.0 / z[i];
     const Real u = fx * x[i] * inverse_z + cx + kRounder - kRounder;
@@ -34,7 +37,7 @@ LIMBCAST_SIMD void project(const Observation& observation, ArmSamples& samples) 
     const bool in_image = (u >= left) & (v >= top) & (u < right) & (v < bottom);
     const bool before = z[i] >= kNearestM;
     const Real beyond = in_image ? kImpossible : kOutsideImage;
-    const Real nowhere = in_image & in_grid ? 0.0 : beyond;
+    const Real nowhere = (in_image & in_grid) ? 0.0 : beyond;
     elsewhere[i] = before ? nowhere : kImpossible;
     pixel_u[i] = in_grid ? u : 0.0;
     pixel_v[i] = in_grid ? v : 0.0;
@@ -62,14 +65,16 @@ void find_pixels(const Observation& observation, ArmSamples& samples) {
 }
 
 LIMBCAST_SIMD void weigh(Real fx_px, ArmSamples& samples) {
-  const Real *const
-      z = samples.z.data(),
-      *const radius = samples.radius.data(), *const clearance_px = samples.clearance_px.data(),
-      *const surface = samples.surface_m.data(), *const sigma = samples.sigma_m.data(),
-      *const unexplained = samples.unexplained.data(), *const elsewhere = samples.elsewhere.data();
+  const Real* const z = samples.z.data();
+  const Real* const radius = samples.radius.data();
+  const Real* const clearance_px = samples.clearance_px.data();
+  const Real* const surface = samples.surface_m.data();
+  const Real* const sigma = samples.sigma_m.data();
+  const Real* const unexplained = samples.unexplained.data();
+  const Real* const elsewhere = samples.elsewhere.data();
   Real* const cost = samples.cost.data();
   const std::size_t count = samples.size();
-#pragma GCC ivdep
+  LIMBCAST_INDEPENDENT_ROUNDS
   for (std::size_t i = 0; i < count; ++i) {
     const Real outside = (0.6 * radius[i] - clearance_px[i] * z[i] / fx_px) / 0.03;
     const Real outside2 = outside * outside;

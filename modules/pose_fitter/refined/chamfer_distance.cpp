@@ -14,7 +14,7 @@ constexpr int kFar = 1 << 29;
 
 /// By way of the three neighbours in the row before.
 LIMBCAST_SIMD void step_from_row(const int* before, int width, int* row) {
-#pragma GCC ivdep
+  LIMBCAST_INDEPENDENT_ROUNDS
   for (int u = 0; u < width; ++u) {
     const int left = before[u - 1] + kDiagonal, middle = before[u] + kStraight,
               right = before[u + 1] + kDiagonal;

@@ -28,16 +28,22 @@ struct ConeColumns {
 LIMBCAST_SIMD void weigh_points(const PointColumns& points, const ConeColumns& cones,
                                 const NearestCones& nearest, float sigma2, float limit2,
                                 ConeEquations::Columns& rows, std::vector<float>& costs) {
-  const float *const point_x = points.x.data(), *const point_y = points.y.data(),
-                     *const point_z = points.z.data(), *const weight = points.weight.data(),
-                     *const sigma_m = points.sigma_m.data(), *const place = nearest.place.data(),
-                     *const distance = nearest.distance.data();
+  const float* const point_x = points.x.data();
+  const float* const point_y = points.y.data();
+  const float* const point_z = points.z.data();
+  const float* const weight = points.weight.data();
+  const float* const sigma_m = points.sigma_m.data();
+  const float* const place = nearest.place.data();
+  const float* const distance = nearest.distance.data();
   const std::int32_t* const nearest_cone = nearest.cone.data();
-  float *const row_x = rows.x.data(), *const row_y = rows.y.data(), *const row_z = rows.z.data(),
-               *const row_radius = rows.radius.data(), *const information = rows.information.data(),
-               *const cost = costs.data();
+  float* const row_x = rows.x.data();
+  float* const row_y = rows.y.data();
+  float* const row_z = rows.z.data();
+  float* const row_radius = rows.radius.data();
+  float* const information = rows.information.data();
+  float* const cost = costs.data();
   const std::size_t count = points.size();
-#pragma GCC ivdep
+  LIMBCAST_INDEPENDENT_ROUNDS
   for (std::size_t i = 0; i < count; ++i) {
     const float x = point_x[i], y = point_y[i], z = point_z[i];
     const float t = place[i], residual = distance[i];
