@@ -65,11 +65,11 @@ class Bus {
   /// Without `source_of` all are of one source.
   template <class Message>
   void subscribe(const std::string& channel, Keep keep, std::function<void(const Message&)> handler,
-                 SourceOf source_of = nullptr) {
+                 const SourceOf& source_of = nullptr) {
     const auto decoded = [handler = std::move(handler)](const ReceivedMessage& message) {
       handler(decode<Message>(message.bytes));
     };
-    subscribe_bytes(channel, keep, decoded, std::move(source_of));
+    subscribe_bytes(channel, keep, decoded, source_of);
   }
   /// Every message on every channel.
   void subscribe_everything(std::function<void(const ReceivedMessage&)> handler) {
