@@ -20,17 +20,17 @@ std::vector<std::uint8_t> compress_jpeg(const cv::Mat& image, int quality) {
   const bool grey = image.channels() == 1;
   const int format = grey ? TJPF_GRAY : TJPF_BGR;
   const int sampling = grey ? TJSAMP_GRAY : TJSAMP_420;
-  std::vector<std::uint8_t> bytes(tjBufSize(image.cols, image.rows, sampling));
+  auto size = tjBufSize(image.cols, image.rows, sampling);
+  // Not a vector, which would clear it all: most of it is never written.
+  const std::unique_ptr<unsigned char[]> bytes(new unsigned char[size]);
   const Handle handle(tjInitCompress());
-  unsigned char* data = bytes.data();
-  auto size = static_cast<unsigned long>(bytes.size());
+  unsigned char* data = bytes.get();
   if (!handle || tjCompress2(handle.get(), image.data, image.cols, static_cast<int>(image.step),
                              image.rows, format, &data, &size, sampling, quality,
                              TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0)
     throw std::runtime_error(std::string("image cannot be coded as JPEG: ") +
                              tjGetErrorStr2(handle.get()));
-  bytes.resize(size);
-  return bytes;
+  return {data, data + size};
 }
 
 cv::Mat decompress_jpeg(const std::vector<std::uint8_t>& bytes, const cv::Size& size) {

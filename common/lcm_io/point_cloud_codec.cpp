@@ -5,18 +5,47 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
+#include "common/camera/pixel_rays.hpp"
 #include "common/lcm_io/compression.hpp"
 #include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/plausible.hpp"
 #include "common/lcm_io/quantization.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
+#include "common/simd.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
 
 /// More than any sensor on a robot gives in one frame; guards against nonsense in a message.
 constexpr std::int64_t kMaxPoints = 8'000'000;
+
+/// Depths of a camera's points as the message carries them. Row by row, so that what lies between
+/// the steps stays in the cache.
+std::vector<std::uint16_t> depth_codes(const Cloud& cloud, double inverse_depth_scale) {
+  std::vector<std::uint16_t> codes(cloud.points_m.size());
+  std::vector<float> depths_m(cloud.width);
+  for (int v = 0; v < cloud.height; ++v) {
+    const std::size_t first = static_cast<std::size_t>(v) * cloud.width;
+    for (int u = 0; u < cloud.width; ++u) depths_m[u] = cloud.points_m[first + u].z();
+    quantize_depths(depths_m.data(), depths_m.size(), inverse_depth_scale, codes.data() + first);
+  }
+  return codes;
+}
+
+/// is_plausible() for each of some points, without branches: in a sixth of the time.
+LIMBCAST_SIMD bool are_plausible(const float* coordinates_m, std::size_t count) {
+  int num_beyond = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    num_beyond += std::abs(coordinates_m[i]) <= kFarthest_m ? 0 : 1;  // so is what is no number
+  return num_beyond == 0;
+}
+
+void check_plausible(const Eigen::Vector3f* points_m, std::size_t count) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  require(count == 0 || are_plausible(points_m->data(), 3 * count),
+          "point cloud: a point is farther than any sensor sees");
+}
 
 cv::Mat color_image(const Cloud& cloud) {
   static_assert(sizeof(Bgr) == 3, "colours must lie as in an 8-bit BGR image");
@@ -43,13 +72,19 @@ void read_camera_layout(const point_cloud_t& message, Cloud& cloud) {
   require(is_plausible(*cloud.camera), "point cloud: camera is not sound");
   require(std::isfinite(message.inverse_depth_scale) && message.inverse_depth_scale > 0.0,
           "point cloud: 'inverse_depth_scale' is not positive");
-  const std::vector<float> depths_m = dequantize_depths(
-      decode_lattice(message.points, message.width, message.height), message.inverse_depth_scale);
-  cloud.points_m.resize(depths_m.size());
-  for (int v = 0, i = 0; v < message.height; ++v)
-    for (int u = 0; u < message.width; ++u, ++i)
-      cloud.points_m[i] =
-          cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), depths_m[i]);
+  const std::vector<std::uint16_t> codes =
+      decode_lattice(message.points, message.width, message.height);
+  if (codes.empty()) return;  // the other side may be of any length
+  const PixelRays rays(*cloud.camera);
+  std::vector<float> depths_m(message.width);
+  cloud.points_m.resize(codes.size());
+  for (int v = 0; v < message.height; ++v) {
+    const std::size_t first = static_cast<std::size_t>(v) * message.width;
+    dequantize_depths(codes.data() + first, depths_m.size(), message.inverse_depth_scale,
+                      depths_m.data());
+    rays.back_project_row(v, depths_m.data(), cloud.points_m.data() + first);
+    check_plausible(cloud.points_m.data() + first, depths_m.size());
+  }
 }
 
 void read_list_layout(const point_cloud_t& message, Cloud& cloud) {
@@ -59,6 +94,7 @@ void read_list_layout(const point_cloud_t& message, Cloud& cloud) {
   cloud.points_m = dequantize_points(
       decode_sequence(message.points, static_cast<std::size_t>(message.width) * 3),
       message.resolution_m);
+  check_plausible(cloud.points_m.data(), cloud.points_m.size());
 }
 
 void write_laser_values(const Cloud& cloud, point_cloud_t& message) {
@@ -102,10 +138,8 @@ point_cloud_t to_message(const Cloud& cloud, int jpeg_quality) {
     message.cx = cloud.camera->cx;
     message.cy = cloud.camera->cy;
     message.inverse_depth_scale = inverse_depth_scale(cloud.stamp.depth_noise);
-    std::vector<float> depths_m(cloud.points_m.size());
-    for (std::size_t i = 0; i < depths_m.size(); ++i) depths_m[i] = cloud.points_m[i].z();
-    message.points = encode_lattice(quantize_depths(depths_m, message.inverse_depth_scale),
-                                    cloud.width, cloud.height);
+    message.points =
+        encode_lattice(depth_codes(cloud, message.inverse_depth_scale), cloud.width, cloud.height);
     message.color = to_jpeg_message(color_image(cloud), jpeg_quality);
   } else {
     message.layout = point_cloud_t::LIST;
@@ -132,9 +166,6 @@ Cloud from_message(const point_cloud_t& message) {
     read_camera_layout(message, cloud);
   else
     read_list_layout(message, cloud);
-  require(std::all_of(cloud.points_m.begin(), cloud.points_m.end(),
-                      [](const Eigen::Vector3f& point_m) { return is_plausible(point_m); }),
-          "point cloud: a point is farther than any sensor sees");
   // A list's colours are as wide as the list, which is more than an image may be: they are read as
   // bytes.
   if (message.layout == point_cloud_t::LIST && !message.color.data.empty()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +25,10 @@ struct QuantizationParams {
 double inverse_depth_scale(const DepthNoise& noise, const QuantizationParams& params = {});
 
 /// Depths [m] (0 = hole) to q (0 = hole). Depths that no q can express become holes.
+void quantize_depths(const float* depths_m, std::size_t count, double scale, std::uint16_t* codes);
 std::vector<std::uint16_t> quantize_depths(const std::vector<float>& depths_m, double scale);
+void dequantize_depths(const std::uint16_t* codes, std::size_t count, double scale,
+                       float* depths_m);
 std::vector<float> dequantize_depths(const std::vector<std::uint16_t>& codes, double scale);
 
 /// Step [m] with which all coordinates of these points fit 16 bits.

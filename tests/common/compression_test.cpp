@@ -12,11 +12,17 @@ namespace {
 TEST(Compression, GivesLatticesBackBitForBit) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> any(0, 65535);
-  for (const auto& [width, height] : {std::pair{1, 1}, {7, 1}, {1, 9}, {64, 48}}) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 1}, {1, 9}, {64, 48}, {5, 7}, {2, 6}}) {
     std::vector<std::uint16_t> values(static_cast<std::size_t>(width) * height);
     for (auto& value : values) value = static_cast<std::uint16_t>(any(random));
     EXPECT_EQ(decode_lattice(encode_lattice(values, width, height), width, height), values);
   }
+}
+
+TEST(Compression, CodesResidualsToTheMedianPredictor) {
+  // 33 is expected to be the median of 30, 20 and 30 + 20 - 10, which is 30. Zigzag doubles.
+  const std::vector<std::uint8_t> planes = {20, 20, 40, 6, 0, 0, 0, 0};
+  EXPECT_EQ(decompress(encode_lattice({10, 20, 30, 33}, 2, 2), planes.size()), planes);
 }
 
 TEST(Compression, GivesSequencesBackAtTheirExtremes) {
