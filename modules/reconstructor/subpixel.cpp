@@ -99,82 +99,192 @@ cv::Mat1f smooth_surfaces(const cv::Mat1f& disparity_px, float same_surface_px) 
   return smoothed;
 }
 
-/// Value and slope between four samples (Catmull and Rom's cubic).
-struct Sample {
-  float value, slope;
-};
-Sample interpolate(const float* samples, float fraction) {
-  const float before = samples[-1], here = samples[0], next = samples[1], after = samples[2];
-  const float linear = 0.5F * (next - before);
-  const float square = before - 2.5F * here + 2.0F * next - 0.5F * after;
-  const float cube = 0.5F * (after - before) + 1.5F * (here - next);
-  return {here + fraction * (linear + fraction * (square + fraction * cube)),
-          linear + fraction * (2.0F * square + fraction * 3.0F * cube)};
+/// Rows of a margin's window, and its sides.
+constexpr int kMarginWindowPx = 2 * kStepMarginPx + 1;
+
+LIMBCAST_SIMD void find_range(const Taps<kMarginWindowPx>& taps, int count,
+                              float* __restrict lowest, float* __restrict highest) {
+  for (int i = 0; i < count; ++i) {
+    float low = taps[0][i], high = taps[0][i];
+    for (int tap = 1; tap < kMarginWindowPx; ++tap) {
+      low = std::min(low, taps[tap][i]);
+      high = std::max(high, taps[tap][i]);
+    }
+    lowest[i] = low;
+    highest[i] = high;
+  }
 }
+
+LIMBCAST_SIMD void mark_inside(const Taps<kMarginWindowPx>& lowest,
+                               const Taps<kMarginWindowPx>& highest, const float* disparity_px,
+                               float same_surface_px, int count, std::uint8_t* __restrict inside) {
+  for (int i = 0; i < count; ++i) {
+    float low = lowest[0][i], high = highest[0][i];
+    for (int tap = 1; tap < kMarginWindowPx; ++tap) {
+      low = std::min(low, lowest[tap][i]);
+      high = std::max(high, highest[tap][i]);
+    }
+    const bool near = high - disparity_px[i] <= same_surface_px;
+    const bool far = disparity_px[i] - low <= same_surface_px;
+    inside[i] = near && far ? 1 : 0;
+  }
+}
+
+/// Tells of a row's pixels whether all within kStepMarginPx are on one surface.
+class MarginFilter {
+ public:
+  explicit MarginFilter(int width)
+      : lowest_(width + 2 * kStepMarginPx), highest_(lowest_.size()), inside_(width) {}
+
+  const std::uint8_t* operator()(const cv::Mat1f& disparity_px, int v, float same_surface_px) {
+    const int width = disparity_px.cols;
+    Taps<kMarginWindowPx> rows{}, lowest{}, highest{};
+    for (int i = 0; i < kMarginWindowPx; ++i) {
+      rows[i] = disparity_px[std::clamp(v + i - kStepMarginPx, 0, disparity_px.rows - 1)];
+      lowest[i] = lowest_.data() + i;
+      highest[i] = highest_.data() + i;
+    }
+    find_range(rows, width, lowest_.data() + kStepMarginPx, highest_.data() + kStepMarginPx);
+    for (auto* range : {&lowest_, &highest_}) {
+      std::fill_n(range->begin(), kStepMarginPx, (*range)[kStepMarginPx]);
+      std::fill_n(range->rbegin(), kStepMarginPx, (*range)[kStepMarginPx + width - 1]);
+    }
+    mark_inside(lowest, highest, disparity_px[v], same_surface_px, width, inside_.data());
+    return inside_.data();
+  }
+
+ private:
+  std::vector<float> lowest_, highest_;  ///< of each column; the border's repeated beyond it
+  std::vector<std::uint8_t> inside_;
+};
 
 /// What a window's shift is found from: of a row's pixels, or summed over windows.
 enum Term { kNumber, kSlope, kDifference, kSlopeSquared, kProduct, kNumTerms };
 using Terms = std::array<std::vector<float>, kNumTerms>;
 
-/// 255 where a pixel and all within kStepMarginPx of it are on one surface.
-cv::Mat1b inside_surfaces(const cv::Mat1f& disparity_px, float same_surface_px) {
-  const cv::Mat1b window = cv::Mat1b::ones(2 * kStepMarginPx + 1, 2 * kStepMarginPx + 1);
-  cv::Mat1f lowest, highest;
-  cv::erode(disparity_px, lowest, window);
-  cv::dilate(disparity_px, highest, window);
-  const cv::Mat1b near = highest - disparity_px <= same_surface_px;
-  const cv::Mat1b far = disparity_px - lowest <= same_surface_px;
-  return near & far;
-}
+/// Where a row's pixels are matched, and the right image there.
+struct Matches {
+  explicit Matches(int width) : columns(width), fractions(width) {
+    for (auto& sample : samples) sample.resize(width);
+  }
+  std::vector<std::int32_t> columns;          ///< left of the match
+  std::vector<float> fractions;               ///< of a pixel, from there to the match
+  std::array<std::vector<float>, 4> samples;  ///< from one column before to two after
+};
 
-/// The terms of each pixel of a row; 0 where it is not inside a surface or its match has no
-/// surroundings.
-void compute_terms(const float* left, const float* right, const float* disparity_px,
-                   const std::uint8_t* inside, int width, Terms& terms) {
-  for (auto& term : terms) term.assign(width, 0.0F);
-  for (int u = 1; u + 1 < width; ++u) {
+/// `is_sound` is 1 where a pixel is inside a surface and its match has surroundings, else 0.
+/// Choices are products here and below: where they branch the compiler vectorises nothing.
+LIMBCAST_SIMD void find_matches(const float* __restrict disparity_px,
+                                const std::uint8_t* __restrict inside, int width,
+                                std::int32_t* __restrict columns, float* __restrict fractions,
+                                float* __restrict is_sound) {
+  for (int u = 0; u < width; ++u) {
     const float matched = static_cast<float>(u) - disparity_px[u];
-    const int column = static_cast<int>(matched);
-    if (inside[u] == 0 || disparity_px[u] <= 0.0F || column < 1 || column + 2 >= width) continue;
-    const Sample sample = interpolate(right + column, matched - static_cast<float>(column));
-    const float slope = 0.5F * (sample.slope + 0.5F * (left[u + 1] - left[u - 1]));
-    const float difference = sample.value - left[u];
-    terms[kNumber][u] = 1.0F;
-    terms[kSlope][u] = slope;
-    terms[kDifference][u] = difference;
-    terms[kSlopeSquared][u] = slope * slope;
-    terms[kProduct][u] = slope * difference;
+    const auto column = static_cast<std::int32_t>(matched);
+    const int sound = static_cast<int>(inside[u]) & static_cast<int>(disparity_px[u] > 0.0F) &
+                      static_cast<int>(column >= 1) & static_cast<int>(column < width - 2);
+    columns[u] = 1 + sound * (column - 1);
+    fractions[u] = matched - static_cast<float>(column);
+    is_sound[u] = static_cast<float>(sound);
   }
 }
 
-/// By how much a window's disparity is to grow [px].
-float shift_px(const Terms& sums, int u, float noise_variance) {
+void read_samples(const float* right, int width, Matches& matches) {
+  auto& [before, here, next, after] = matches.samples;
+  for (int u = 0; u < width; ++u) {
+    const float* sample = right + matches.columns[u];
+    before[u] = sample[-1];
+    here[u] = sample[0];
+    next[u] = sample[1];
+    after[u] = sample[2];
+  }
+}
+
+/// Value and slope between four samples (Catmull and Rom's cubic).
+LIMBCAST_SIMD void interpolate(const float* __restrict befores, const float* __restrict heres,
+                               const float* __restrict nexts, const float* __restrict afters,
+                               const float* __restrict fractions, int count,
+                               float* __restrict values, float* __restrict slopes) {
+  for (int i = 0; i < count; ++i) {
+    const float before = befores[i], here = heres[i], next = nexts[i], after = afters[i];
+    const float linear = 0.5F * (next - before);
+    const float square = before - 2.5F * here + 2.0F * next - 0.5F * after;
+    const float cube = 0.5F * (after - before) + 1.5F * (here - next);
+    const float fraction = fractions[i];
+    values[i] = here + fraction * (linear + fraction * (square + fraction * cube));
+    slopes[i] = linear + fraction * (2.0F * square + fraction * 3.0F * cube);
+  }
+}
+
+/// Slopes and values of the right image to terms of the pixels from 1 to end; 0 where a match is
+/// not sound.
+LIMBCAST_SIMD void finish_terms(const float* __restrict is_sound, const float* __restrict left,
+                                int end, float* __restrict slopes, float* __restrict values,
+                                float* __restrict slopes_squared, float* __restrict products) {
+  for (int u = 1; u < end; ++u) {
+    const float slope = 0.5F * (slopes[u] + 0.5F * (left[u + 1] - left[u - 1]));
+    const float difference = values[u] - left[u];
+    slopes[u] = is_sound[u] * slope;
+    values[u] = is_sound[u] * difference;
+    slopes_squared[u] = is_sound[u] * (slope * slope);
+    products[u] = is_sound[u] * (slope * difference);
+  }
+}
+
+/// The terms of each pixel of a row; those at the image's sides are 0.
+void compute_terms(const float* left, const float* right, const float* disparity_px,
+                   const std::uint8_t* inside, int width, Matches& matches, Terms& terms) {
+  find_matches(disparity_px, inside, width, matches.columns.data(), matches.fractions.data(),
+               terms[kNumber].data());
+  read_samples(right, width, matches);
+  const auto& [before, here, next, after] = matches.samples;
+  interpolate(before.data(), here.data(), next.data(), after.data(), matches.fractions.data(),
+              width, terms[kDifference].data(), terms[kSlope].data());
+  finish_terms(terms[kNumber].data(), left, width - 1, terms[kSlope].data(),
+               terms[kDifference].data(), terms[kSlopeSquared].data(), terms[kProduct].data());
+  for (auto& term : terms) term.front() = term.back() = 0.0F;
+}
+
+/// Lets the disparities of a row grow by what fits best in their windows.
+LIMBCAST_SIMD void add_shifts(const std::array<const float*, kNumTerms>& sums, float noise_variance,
+                              int count, float* __restrict disparity_px) {
   constexpr float kMaxShiftPx = 0.5F;  // beyond, the step's linear picture of the image fails
-  const float number = sums[kNumber][u];
-  if (number < 1.0F) return 0.0F;
-  const float slope = sums[kSlope][u], difference = sums[kDifference][u];
-  const float variance = sums[kSlopeSquared][u] - slope * slope / number;
-  const float covariance = sums[kProduct][u] - slope * difference / number;
-  return std::clamp(covariance / (variance + noise_variance * number), -kMaxShiftPx, kMaxShiftPx);
+  for (int u = 0; u < count; ++u) {
+    const float number = std::max(sums[kNumber][u], 1.0F);  // none: all sums are 0
+    const float slope = sums[kSlope][u], difference = sums[kDifference][u];
+    const float variance = sums[kSlopeSquared][u] - slope * slope / number;
+    const float covariance = sums[kProduct][u] - slope * difference / number;
+    const float shift = covariance / (variance + noise_variance * number);
+    const float limited = std::max(std::min(shift, kMaxShiftPx), -kMaxShiftPx);
+    disparity_px[u] += disparity_px[u] > 0.0F ? limited : 0.0F;
+  }
 }
 
 void shift_windows(const cv::Mat1f& left, const cv::Mat1f& right, const SubpixelParams& params,
                    cv::Mat1f& disparity_px) {
   using Filter = WindowFilter<kShiftWindowPx, decltype(&sum_window)>;
   const int width = left.cols;
-  const cv::Mat1b inside_surface = inside_surfaces(disparity_px, params.same_surface_px);
+  if (width < 4) return;  // four samples are interpolated
+  MarginFilter inside_surfaces(width);
   std::vector<Filter> filters(kNumTerms, {width, sum_window});
+  Matches matches(width);
   Terms terms, sums;
-  for (auto& sum : sums) sum.resize(width);
+  for (auto& term : terms) term.assign(width, 0.0F);
+  std::array<const float*, kNumTerms> sum_rows{};
+  for (int i = 0; i < kNumTerms; ++i) {
+    sums[i].resize(width);
+    sum_rows[i] = sums[i].data();
+  }
   for (int v = 0; v < left.rows + Filter::kRadiusPx; ++v) {
     const bool inside = v < left.rows;
-    if (inside) compute_terms(left[v], right[v], disparity_px[v], inside_surface[v], width, terms);
+    if (inside)
+      compute_terms(left[v], right[v], disparity_px[v],
+                    inside_surfaces(disparity_px, v, params.same_surface_px), width, matches,
+                    terms);
     for (int i = 0; i < kNumTerms; ++i) filters[i].push(inside ? terms[i].data() : nullptr);
     if (v < Filter::kRadiusPx) continue;
     for (int i = 0; i < kNumTerms; ++i) filters[i].pull(sums[i].data());
-    float* row = disparity_px[v - Filter::kRadiusPx];
-    for (int u = 0; u < width; ++u)
-      if (row[u] > 0.0F) row[u] += shift_px(sums, u, params.noise_variance);
+    add_shifts(sum_rows, params.noise_variance, width, disparity_px[v - Filter::kRadiusPx]);
   }
 }
 
