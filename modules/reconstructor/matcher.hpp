@@ -6,16 +6,14 @@
 #include "modules/reconstructor/gaps.hpp"
 #include "modules/reconstructor/semi_global.hpp"
 #include "modules/reconstructor/silhouettes.hpp"
+#include "modules/reconstructor/speckles.hpp"
 #include "modules/reconstructor/subpixel.hpp"
 
 namespace limbcast::reconstructor {
 
 struct MatcherParams {
   SemiGlobalParams semi_global;
-  /// Groups of pixels smaller than this, cut off by steps in disparity, are removed [px].
-  int speckle_size = 100;
-  /// Step in disparity that cuts [px].
-  double speckle_step_px = 2.0;
+  SpeckleParams speckles;
   SilhouetteParams silhouettes;
   GapParams gaps;
   SubpixelParams subpixel;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/simd.hpp"
+#include "modules/reconstructor/marks.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
@@ -69,8 +70,8 @@ class SeamFinder {
     for (int v = first_row; v < end_row; ++v) {
       mark_steps(disparity_px_[v] + first, disparity_px_[v - inwards.y] + first - inwards.x,
                  params_.min_step_px, end - first, &is_step[first]);
-      for (int u = first; u < end; ++u)
-        if (is_step[u] != 0) mark_seam({u, v}, inwards, is_seam);
+      for (int u = find_mark(is_step, first); u < end; u = find_mark(is_step, u + 1))
+        mark_seam({u, v}, inwards, is_seam);
     }
   }
 
