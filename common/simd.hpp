@@ -8,6 +8,8 @@
 /// (arm64: NEON) serve.
 /// LIMBCAST_BIT_COUNTING_SIMD is for a function that counts the bits of vectors' bytes, and is to
 /// be called where counts_bits_of_vectors() only.
+/// LIMBCAST_INLINE is for what such functions call in their loops, and for lambdas there.
+#define LIMBCAST_INLINE __attribute__((always_inline))
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define LIMBCAST_SIMD __attribute__((target_clones("avx2", "default"), optimize("O3")))
 #define LIMBCAST_BIT_COUNTING_SIMD \

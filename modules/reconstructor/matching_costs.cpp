@@ -45,23 +45,25 @@ struct BitCounter {
 };
 
 template <class Counter>
-[[gnu::always_inline]] inline void count_differing_bits(const PlaneRows& left,
-                                                        const PlaneRows& right_mirrored, int width,
-                                                        const Byte* least, const Byte* even_least,
-                                                        int num_registers, Byte* __restrict costs) {
-  const int size = num_registers * kCostsInARegister;  // the compiler sees a loop without a rest
-  for (int u = 0; u < width; ++u, costs += size) {
-    const Byte l0 = left[0][u], l1 = left[1][u], l2 = left[2][u];
-    const Byte* __restrict least_here = (l0 | l1 | l2) == 0 ? even_least : least;
-    const int match = width - 1 - u;
-    const Byte* __restrict r0 = right_mirrored[0] + match;
-    const Byte* __restrict r1 = right_mirrored[1] + match;
-    const Byte* __restrict r2 = right_mirrored[2] + match;
-    for (int d = 0; d < size; ++d) {
-      const Byte x0 = l0 ^ r0[d], x1 = l1 ^ r1[d], x2 = l2 ^ r2[d];
-      costs[d] = std::max(Counter::count(x0, x1, x2), least_here[d]);
+LIMBCAST_INLINE inline void count_differing_bits(const PlaneRows& left,
+                                                 const PlaneRows& right_mirrored, int width,
+                                                 const Byte* least, const Byte* even_least,
+                                                 int num_registers, Byte* __restrict costs) {
+  with_size(num_registers, [&](auto size) LIMBCAST_INLINE {
+    for (int u = 0; u < width; ++u) {
+      const Byte l0 = left[0][u], l1 = left[1][u], l2 = left[2][u];
+      const Byte* __restrict least_here = (l0 | l1 | l2) == 0 ? even_least : least;
+      const int match = width - 1 - u;
+      const Byte* __restrict r0 = right_mirrored[0] + match;
+      const Byte* __restrict r1 = right_mirrored[1] + match;
+      const Byte* __restrict r2 = right_mirrored[2] + match;
+      Byte* __restrict costs_here = costs + static_cast<std::ptrdiff_t>(u) * size;
+      for (int d = 0; d < size; ++d) {
+        const Byte x0 = l0 ^ r0[d], x1 = l1 ^ r1[d], x2 = l2 ^ r2[d];
+        costs_here[d] = std::max(Counter::count(x0, x1, x2), least_here[d]);
+      }
     }
-  }
+  });
 }
 
 LIMBCAST_SIMD void count_by_adding(const PlaneRows& left, const PlaneRows& right_mirrored,

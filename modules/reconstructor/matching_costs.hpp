@@ -4,13 +4,11 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "modules/reconstructor/byte_lanes.hpp"
 #include "modules/reconstructor/census.hpp"
 
 namespace limbcast::reconstructor {
 
-/// A pixel's costs are as many bytes as fill vector registers: the number of disparities is rounded
-/// up to a multiple of this, and what is beyond costs kNoMatch.
-constexpr int kCostsInARegister = 32;
 /// Above any sum along a path that could be the lowest, and low enough that sums stay within a
 /// byte.
 constexpr std::uint8_t kNoMatch = 127;

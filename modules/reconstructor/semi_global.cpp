@@ -4,11 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "common/simd.hpp"
+#include "modules/reconstructor/byte_lanes.hpp"
+#include "modules/reconstructor/lowest_costs.hpp"
 #include "modules/reconstructor/matching_costs.hpp"
 
 // Costs and sums are bytes, those of a pixel's disparities side by side. Rows are worked on from
@@ -65,18 +68,19 @@ struct PathShape {
 /// Room for matching a strip, kept from one to the next: asking the system for it each time takes
 /// longer than filling it.
 struct Workspace {
-  std::vector<PathSums> from_below;                 ///< of each row of the strip
-  std::array<PathSums, 2> run_up;                   ///< of the rows below it
-  std::array<std::vector<Byte>, kGroupRows> costs;  ///< [pixel][disparity]
+  std::vector<PathSums> from_below;  ///< of each row of the strip
+  std::array<PathSums, 2> run_up;    ///< of the rows below it
+  /// [pixel][disparity], and room for a register before and after.
+  std::array<std::vector<Byte>, kGroupRows> costs;
   std::array<PathSums, kGroupRows> from_left;   ///< of what is left of the row, then of its pixels
   std::array<PathSums, kGroupRows> from_right;  ///< of the last two pixels
   std::array<PathSums, kGroupRows> from_above;
   std::vector<Byte> lowest;                ///< of the vertical paths
-  std::vector<std::uint16_t> left, right;  ///< see find_lowest
+  std::vector<Byte> left, right_mirrored;  ///< disparities, see LowestCosts
 };
 
 /// Where a group's rows stand, pixel after pixel.
-struct Group {
+struct RowGroup {
   int num_rows;
   std::array<const Byte*, kGroupRows> horizontal_steps;  ///< large step from the left neighbour
   std::array<Byte*, kGroupRows> costs, from_left, from_right, from_above, from_below;
@@ -85,86 +89,78 @@ struct Group {
 /// One step of a path, from the pixel before to this one:
 /// L(d) = C(d) + min(L'(d), L'(d - 1) + P1, L'(d + 1) + P1, min L' + P2) - min L'.
 /// Returns min L.
-[[gnu::always_inline]] inline Byte advance(const Byte* __restrict cost,
-                                           const Byte* __restrict before, Byte lowest_before,
-                                           Byte small_step, Byte large_step, int size,
-                                           Byte* __restrict now) {
-  const auto jump = static_cast<Byte>(lowest_before + large_step);
-  Byte lowest = 255;
-  for (int d = 0; d < size; ++d) {
-    const auto stepped = static_cast<Byte>(std::min(before[d - 1], before[d + 1]) + small_step);
-    const Byte best = std::min(std::min(before[d], jump), stepped);
-    now[d] = static_cast<Byte>(cost[d] + static_cast<Byte>(best - lowest_before));
-    lowest = std::min(lowest, now[d]);
+LIMBCAST_INLINE inline Byte advance(const Byte* cost, const Byte* before, Byte lowest_before,
+                                    Byte small_step, Byte large_step, int size, Byte* now) {
+  const Lanes jump = Lanes{} + static_cast<Byte>(lowest_before + large_step);
+  Lanes lowest = ~Lanes{};
+  for (int d = 0; d < size; d += kCostsInARegister) {
+    Lanes best, below, above, costs;
+    load(before + d, best);
+    load(before + d - 1, below);
+    load(before + d + 1, above);
+    load(cost + d, costs);
+    lower_to(below, above);
+    above += small_step;
+    lower_to(jump, best);
+    lower_to(above, best);
+    best += costs - lowest_before;
+    std::memcpy(now + d, &best, sizeof best);
+    lower_to(best, lowest);
   }
-  return lowest;
+  return lowest_of(lowest);
 }
 
 /// A step of the vertical paths, from the row before to this one; `lowest` is min L of each pixel.
 LIMBCAST_SIMD void advance_row(const PathShape& shape, const Byte* cost, const Byte* large_steps,
                                const Byte* before, Byte* lowest, Byte* now) {
-  const int size = shape.num_registers * kCostsInARegister;  // a loop without a rest
-  for (int u = 0; u < shape.width; ++u) {
-    lowest[u] = advance(cost, before, lowest[u], shape.small_step, large_steps[u], size, now);
-    cost += size;
-    before += size + kGap;
-    now += size + kGap;
-  }
+  with_size(shape.num_registers, [&](auto size) LIMBCAST_INLINE {
+    for (int u = 0; u < shape.width; ++u) {
+      lowest[u] = advance(cost, before, lowest[u], shape.small_step, large_steps[u], size, now);
+      cost += size;
+      before += size + kGap;
+      now += size + kGap;
+    }
+  });
 }
 
-LIMBCAST_SIMD void advance_from_left(const PathShape& shape, Group group) {
-  const int size = shape.num_registers * kCostsInARegister;
-  std::array<Byte, kGroupRows> lowest{};
-  for (int u = 0; u < shape.width; ++u) {
-    for (int i = 0; i < group.num_rows; ++i) {
-      Byte* before = group.from_left[i];
-      group.from_left[i] += size + kGap;
-      lowest[i] = advance(group.costs[i], before, lowest[i], shape.small_step,
-                          group.horizontal_steps[i][u], size, group.from_left[i]);
-      group.costs[i] += size;
+LIMBCAST_SIMD void advance_from_left(const PathShape& shape, RowGroup group) {
+  with_size(shape.num_registers, [&](auto size) LIMBCAST_INLINE {
+    std::array<Byte, kGroupRows> lowest{};
+    for (int u = 0; u < shape.width; ++u) {
+      for (int i = 0; i < group.num_rows; ++i) {
+        Byte* before = group.from_left[i];
+        group.from_left[i] += size + kGap;
+        lowest[i] = advance(group.costs[i], before, lowest[i], shape.small_step,
+                            group.horizontal_steps[i][u], size, group.from_left[i]);
+        group.costs[i] += size;
+      }
     }
-  }
+  });
 }
 
 /// The last path. With its sums, the means of all four take the costs' place.
-LIMBCAST_SIMD void advance_from_right(const PathShape& shape, Group group) {
-  const int size = shape.num_registers * kCostsInARegister;
-  std::array<Byte, kGroupRows> lowest{};
-  for (int u = shape.width - 1; u >= 0; --u) {
-    const int before = std::min(u + 1, shape.width - 1);
-    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(u) * (size + kGap);
-    for (int i = 0; i < group.num_rows; ++i) {
-      Byte* __restrict costs = group.costs[i] + static_cast<std::ptrdiff_t>(u) * size;
-      Byte* __restrict right = group.from_right[i] + u % 2 * (size + kGap);
-      lowest[i] = advance(costs, group.from_right[i] + (u + 1) % 2 * (size + kGap), lowest[i],
-                          shape.small_step, group.horizontal_steps[i][before], size, right);
-      const Byte* __restrict left = group.from_left[i] + at + size + kGap;
-      const Byte* __restrict above = group.from_above[i] + at;
-      const Byte* __restrict below = group.from_below[i] + at;
-      for (int d = 0; d < size; ++d) {
-        const auto horizontal = static_cast<Byte>(left[d] + right[d]);
-        const auto vertical = static_cast<Byte>(above[d] + below[d]);
-        costs[d] = static_cast<Byte>((horizontal + vertical + 1) >> 1);
+LIMBCAST_SIMD void advance_from_right(const PathShape& shape, RowGroup group) {
+  with_size(shape.num_registers, [&](auto size) LIMBCAST_INLINE {
+    std::array<Byte, kGroupRows> lowest{};
+    for (int u = shape.width - 1; u >= 0; --u) {
+      const int before = std::min(u + 1, shape.width - 1);
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(u) * (size + kGap);
+      for (int i = 0; i < group.num_rows; ++i) {
+        Byte* __restrict costs = group.costs[i] + static_cast<std::ptrdiff_t>(u) * size;
+        Byte* __restrict right = group.from_right[i] + u % 2 * (size + kGap);
+        lowest[i] = advance(costs, group.from_right[i] + (u + 1) % 2 * (size + kGap), lowest[i],
+                            shape.small_step, group.horizontal_steps[i][before], size, right);
+        const Byte* __restrict left = group.from_left[i] + at + size + kGap;
+        const Byte* __restrict above = group.from_above[i] + at;
+        const Byte* __restrict below = group.from_below[i] + at;
+        for (int d = 0; d < size; ++d) {
+          const auto horizontal = static_cast<Byte>(left[d] + right[d]);
+          const auto vertical = static_cast<Byte>(above[d] + below[d]);
+          costs[d] = static_cast<Byte>((horizontal + vertical + 1) >> 1);
+        }
       }
     }
-  }
-}
-
-/// Lowest of each pixel's costs and its disparity, as cost * 256 + disparity; of the right image's
-/// pixel u at right_mirrored[width - 1 - u]: it sees at d what the left image's pixel u + d sees.
-LIMBCAST_SIMD void find_lowest(const PathShape& shape, const Byte* costs, int num_disparities,
-                               std::uint16_t* left, std::uint16_t* __restrict right_mirrored) {
-  const int size = shape.num_registers * kCostsInARegister;
-  for (int u = 0; u < shape.width; ++u, costs += size) {
-    std::uint16_t* __restrict right = right_mirrored + (shape.width - 1 - u);
-    std::uint16_t lowest = 0xffff;
-    for (int d = 0; d < num_disparities; ++d) {
-      const auto key = static_cast<std::uint16_t>(costs[d] << 8 | d);
-      lowest = std::min(lowest, key);
-      right[d] = std::min(right[d], key);
-    }
-    left[u] = lowest;
-  }
+  });
 }
 
 cv::Mat1b large_step_costs(const cv::Mat1b& grey, const SemiGlobalParams& params) {
@@ -192,7 +188,8 @@ class StripMatcher {
         vertical_steps_(large_step_costs(left, params)),
         horizontal_steps_(large_step_costs(left.t(), params).t()),
         shape_{width_, costs_.size() / kCostsInARegister,
-               static_cast<Byte>(params.small_step_cost)} {}
+               static_cast<Byte>(params.small_step_cost)},
+        lowest_(width_, costs_.size(), params.num_disparities) {}
 
   void match(int begin, int end, Workspace& work, cv::Mat1f& disparity_px) const {
     reshape(work);
@@ -201,10 +198,10 @@ class StripMatcher {
     for (int v = begin; v < end; v += kGroupRows) {
       const int num_rows = std::min(kGroupRows, end - v);
       for (int i = 0; i < num_rows; ++i) advance_from_above(v + i, work);
-      const Group group = group_of(begin, v, num_rows, work);
+      const RowGroup group = group_of(begin, v, num_rows, work);
       advance_from_left(shape_, group);
       advance_from_right(shape_, group);
-      for (int i = 0; i < num_rows; ++i) choose(work.costs.at(i), work, disparity_px[v + i]);
+      for (int i = 0; i < num_rows; ++i) choose(costs_of(i, work), work, disparity_px[v + i]);
     }
   }
 
@@ -214,11 +211,18 @@ class StripMatcher {
     for (PathSums& sums : work.from_below) sums.reshape(width_, costs_.size());
     for (PathSums& sums : work.run_up) sums.reshape(width_, costs_.size());
     for (int i = 0; i < kGroupRows; ++i) {
-      work.costs.at(i).resize(static_cast<std::size_t>(width_) * costs_.size());
+      work.costs.at(i).resize(static_cast<std::size_t>(width_) * costs_.size() +
+                              2 * kCostsInARegister);
       work.from_left.at(i).reshape(width_ + 1, costs_.size());
       work.from_right.at(i).reshape(2, costs_.size());
       work.from_above.at(i).reshape(width_, costs_.size());
     }
+    work.left.resize(width_);
+    work.right_mirrored.resize(width_ + kCostsInARegister);
+  }
+
+  static Byte* costs_of(int row_of_group, Workspace& work) {
+    return work.costs.at(row_of_group).data() + kCostsInARegister;
   }
 
   void sum_from_below(int begin, int end, Workspace& work) const {
@@ -229,7 +233,7 @@ class StripMatcher {
     PathSums* before = &work.run_up.at((bottom + 1) % 2);
     before->set_to_zero();
     work.lowest.assign(width_, 0);
-    Byte* costs = work.costs.front().data();
+    Byte* costs = costs_of(0, work);
     for (int v = bottom; v >= begin; --v) {
       costs_.compute_row(v, costs);
       advance_row(shape_, costs, vertical_steps_[std::min(v + 1, height_ - 1)], before->pixel(0),
@@ -247,21 +251,21 @@ class StripMatcher {
 
   /// Computes a row's costs, too; rows take turns with their room.
   void advance_from_above(int v, Workspace& work) const {
-    Byte* costs = work.costs.at(v % kGroupRows).data();
+    Byte* costs = costs_of(v % kGroupRows, work);
     costs_.compute_row(v, costs);
     advance_row(shape_, costs, vertical_steps_[v],
                 work.from_above.at((v + kGroupRows - 1) % kGroupRows).pixel(0), work.lowest.data(),
                 work.from_above.at(v % kGroupRows).pixel(0));
   }
 
-  Group group_of(int begin, int v, int num_rows, Workspace& work) const {
-    Group group{};
+  RowGroup group_of(int begin, int v, int num_rows, Workspace& work) const {
+    RowGroup group{};
     group.num_rows = num_rows;
     for (int i = 0; i < num_rows; ++i) {
       std::fill_n(work.from_left.at(i).pixel(0), costs_.size(), Byte{0});
       work.from_right.at(i).set_to_zero();
       group.horizontal_steps.at(i) = horizontal_steps_[v + i];
-      group.costs.at(i) = work.costs.at(i).data();
+      group.costs.at(i) = costs_of(i, work);
       group.from_left.at(i) = work.from_left.at(i).pixel(0);
       group.from_right.at(i) = work.from_right.at(i).pixel(0);
       group.from_above.at(i) = work.from_above.at(i).pixel(0);
@@ -271,13 +275,12 @@ class StripMatcher {
   }
 
   /// Of each pixel the disparity of lowest cost, if the right image's pixel chose it too.
-  void choose(const std::vector<Byte>& costs, Workspace& work, float* disparity_px) const {
-    work.left.resize(width_);
-    work.right.assign(width_ + costs_.size(), 0xffff);
-    find_lowest(shape_, costs.data(), params_.num_disparities, work.left.data(), work.right.data());
-    const auto right = [&](int u) { return work.right[width_ - 1 - u] & 0xff; };
+  void choose(const Byte* costs, Workspace& work, float* disparity_px) const {
+    lowest_.find_left(costs, work.left.data());
+    lowest_.find_right(costs, work.right_mirrored.data());
+    const auto right = [&](int u) { return int{work.right_mirrored[width_ - 1 - u]}; };
     for (int u = 0; u < width_; ++u) {
-      const int d = work.left[u] & 0xff;
+      const int d = work.left[u];
       const bool is_match =
           d > 1 && d <= u && std::abs(right(u - d) - d) <= params_.max_left_right_difference_px;
       disparity_px[u] = is_match ? static_cast<float>(d) + fraction(costs, u, d) : 0.0F;
@@ -285,7 +288,7 @@ class StripMatcher {
   }
 
   /// Where a parabola through the costs of the disparity and its neighbours is lowest [px].
-  float fraction(const std::vector<Byte>& costs, int u, int d) const {
+  float fraction(const Byte* costs, int u, int d) const {
     if (d + 1 >= params_.num_disparities) return 0.0F;
     const Byte* cost = &costs[static_cast<std::size_t>(u) * costs_.size() + d];
     const int less = cost[-1] - *cost, more = cost[1] - *cost;
@@ -299,6 +302,7 @@ class StripMatcher {
   MatchingCosts costs_;
   cv::Mat1b vertical_steps_, horizontal_steps_;  ///< costs of large steps from above, from the left
   PathShape shape_;
+  LowestCosts lowest_;
 };
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 #include <vector>
 
 #include "common/simd.hpp"
+#include "modules/reconstructor/window_filter.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
@@ -19,10 +19,6 @@ constexpr int kShapeWindowPx = 7, kShiftWindowPx = 9;
 /// Nearer to a step both images show what lies on either side of it, in different places: window
 /// and blur carry it so far. Shifts found there took arms 2 cm too far at 3 m.
 constexpr int kStepMarginPx = 2;
-/// First pixels of a window's rows, or of its columns.
-template <int window_px>
-using Taps = std::array<const float*, window_px>;
-
 LIMBCAST_SIMD void sum_window(const Taps<kShiftWindowPx>& taps, int count, float* __restrict sums) {
   for (int i = 0; i < count; ++i) {
     float sum = 0.0F;
@@ -47,43 +43,6 @@ LIMBCAST_SIMD void average_surface(const Taps<kShapeWindowPx>& taps, float same_
     means[i] = sum / weights;
   }
 }
-
-/// Applies `filter(taps, count, result)` along rows, then along columns, row by row, so that all
-/// of it stays in the cache. Outside the image everything is 0.
-template <int window_px, typename Filter>
-class WindowFilter {
- public:
-  static constexpr int kRadiusPx = window_px / 2;
-
-  WindowFilter(int width, Filter filter)
-      : width_(width), filter_(std::move(filter)), padded_(width + 2 * kRadiusPx, 0.0F) {
-    for (auto& row : filtered_) row.assign(width, 0.0F);
-  }
-  /// Takes the image's next row, or nullptr below the last.
-  void push(const float* row) {
-    std::rotate(filtered_.begin(), filtered_.begin() + 1, filtered_.end());
-    if (row == nullptr) {
-      std::fill(filtered_.back().begin(), filtered_.back().end(), 0.0F);
-      return;
-    }
-    std::copy_n(row, width_, padded_.begin() + kRadiusPx);
-    Taps<window_px> taps{};
-    for (int i = 0; i < window_px; ++i) taps[i] = padded_.data() + i;
-    filter_(taps, width_, filtered_.back().data());
-  }
-  /// The result for the row that was pushed kRadiusPx rows ago.
-  void pull(float* result) const {
-    Taps<window_px> taps{};
-    for (int i = 0; i < window_px; ++i) taps[i] = filtered_[i].data();
-    filter_(taps, width_, result);
-  }
-
- private:
-  int width_;
-  Filter filter_;
-  std::vector<float> padded_;
-  std::array<std::vector<float>, window_px> filtered_;
-};
 
 cv::Mat1f smooth_surfaces(const cv::Mat1f& disparity_px, float same_surface_px) {
   const auto average = [=](const Taps<kShapeWindowPx>& taps, int count, float* means) {
