@@ -31,9 +31,6 @@ LIMBCAST_INLINE inline void with_size(int num_registers, const Loop& loop) {
 /// returned by value: how that is done depends on the processor.
 using Lanes = std::uint8_t __attribute__((vector_size(kCostsInARegister)));
 
-LIMBCAST_INLINE inline void load(const std::uint8_t* bytes, Lanes& lanes) {
-  std::memcpy(&lanes, bytes, sizeof lanes);
-}
 LIMBCAST_INLINE inline void lower_to(const Lanes& limits, Lanes& lanes) {
   lanes = lanes < limits ? lanes : limits;
 }
