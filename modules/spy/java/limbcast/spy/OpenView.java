@@ -1,6 +1,7 @@
 package limbcast.spy;
 
 import java.awt.BorderLayout;
+import java.awt.Toolkit;
 import java.awt.event.ActionEvent;
 import java.awt.event.HierarchyEvent;
 import java.beans.PropertyVetoException;
@@ -93,6 +94,9 @@ final class OpenView<M> extends AbstractAction {
   private void show(MessageView<M> view, JLabel problem, Source<M> message) {
     try {
       view.show(message.get());
+      // Behind the painting in the queue: what is painted reaches the X server with the next event,
+      // else, which may be the next message's.
+      SwingUtilities.invokeLater(Toolkit.getDefaultToolkit()::sync);
     } catch (IOException | RuntimeException error) {
       SwingUtilities.invokeLater(() -> problem.setText("message not shown: " + error.getMessage()));
     }
