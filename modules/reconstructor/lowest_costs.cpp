@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 
 #include "common/simd.hpp"
 #include "modules/reconstructor/byte_lanes.hpp"
@@ -47,7 +46,7 @@ LIMBCAST_SIMD void find_lowest_of_right(int width, std::ptrdiff_t size, const By
       const Lanes candidate = disparity & lower;  // disparities grow, so the latest is the largest
       found = candidate > found ? candidate : found;
     }
-    std::memcpy(disparities_mirrored + mirrored, &found, sizeof found);
+    store(found, disparities_mirrored + mirrored);
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace limbcast::reconstructor {
 
-/// Rows of bytes that vectors set to 0 or 1, pixel for pixel, and that are then searched by the C
-/// library, which looks at many at a time.
+// Rows of bytes that vectors set to 0 or 1, pixel for pixel, and that are then searched by the C
+// library, which looks at many at a time.
 
 /// The first pixel from `from` on whose byte is `mark`, else the row's width.
 inline int find_mark(const std::vector<std::uint8_t>& row, int from, std::uint8_t mark = 1) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <vector>
@@ -104,7 +103,7 @@ LIMBCAST_INLINE inline Byte advance(const Byte* cost, const Byte* before, Byte l
     lower_to(jump, best);
     lower_to(above, best);
     best += costs - lowest_before;
-    std::memcpy(now + d, &best, sizeof best);
+    store(best, now + d);
     lower_to(best, lowest);
   }
   return lowest_of(lowest);
