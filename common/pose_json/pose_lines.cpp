@@ -23,6 +23,12 @@ OrderedJson vector_json(const Eigen::Vector3f& vector, double steps_per_unit) {
           rounded(vector.z(), steps_per_unit)};
 }
 
+/// null where it is not known (zero), as that of head and hand where the head was left out.
+OrderedJson direction_json(const Eigen::Vector3f& direction, double steps_per_unit) {
+  if (direction.isZero()) return nullptr;
+  return vector_json(direction, steps_per_unit);
+}
+
 constexpr double kPositionSteps = 1e4;   // 0.1 mm
 constexpr double kDirectionSteps = 1e5;  // 0.0006 degrees
 constexpr double kShareSteps = 1e4;
@@ -32,8 +38,8 @@ OrderedJson pointing_json(const std::vector<Pointing>& arms) {
   const Pointing& arm = arms.front();
   return {{"side", arm.side == Side::kLeft ? "left" : "right"},
           {"direction", vector_json(arm.direction, kDirectionSteps)},
-          {"forearm", vector_json(arm.forearm, kDirectionSteps)},
-          {"head_hand", vector_json(arm.head_hand, kDirectionSteps)},
+          {"forearm", direction_json(arm.forearm, kDirectionSteps)},
+          {"head_hand", direction_json(arm.head_hand, kDirectionSteps)},
           {"sigma_deg", rounded(arm.sigma_rad * kDegreesPerRadian<float>, kShareSteps)},
           {"confidence", rounded(arm.confidence, kShareSteps)}};
 }

@@ -61,6 +61,14 @@ TEST(PoseLines, SayNullWhereNobodyPointsAndEmptyWhereNobodyIs) {
   EXPECT_THAT(to_line(poses), HasSubstr(R"("persons":[])"));
 }
 
+TEST(PoseLines, SayNullForADirectionThatIsNotKnown) {
+  BodyPoses poses = one_person();
+  poses.persons[0].pointing[0].head_hand.setZero();  // the head was left out
+  const std::string line = to_line(poses);
+  EXPECT_THAT(line, HasSubstr(R"("head_hand":null)"));
+  EXPECT_TRUE(from_line(line, "here").persons.at(0).pointing.at(0).head_hand.isZero());
+}
+
 TEST(PoseLines, AreReadBackAsTheyWereWritten) {
   const BodyPoses poses = from_line(to_line(one_person()), "here");
   ASSERT_EQ(poses.persons.size(), 1U);
