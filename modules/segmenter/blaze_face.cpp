@@ -44,8 +44,8 @@ const TfliteFile& BlazeFace::file() {
   return file;
 }
 
-BlazeFace::BlazeFace()
-    : network_(file(), {"reshaped_classifier_face_4", "reshaped_regressor_face_4"}) {}
+BlazeFace::BlazeFace(NetworkLibrary library)
+    : network_(file(), {"reshaped_classifier_face_4", "reshaped_regressor_face_4"}, library) {}
 
 SeenFace BlazeFace::see(const cv::Mat3b& picture, float reach_px) {
   constexpr double kMiddle = 127.5;

@@ -59,7 +59,8 @@ const TfliteFile& BlazePose::file() {
   return file;
 }
 
-BlazePose::BlazePose() : network_(file(), {"Identity", "Identity_4", "Identity_1"}) {}
+BlazePose::BlazePose(NetworkLibrary library)
+    : network_(file(), {"Identity", "Identity_4", "Identity_1"}, library) {}
 
 ImagePose BlazePose::see(const cv::Mat3b& picture) {
   constexpr double kWhite = 255.0;

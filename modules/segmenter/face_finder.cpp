@@ -24,8 +24,9 @@ FaceEvidence to_evidence(const SeenFace& face, float m_per_px, const FaceParams&
 
 FaceFinder::FaceFinder(const FaceParams& params) : params_(params) {
   if (!params.enabled) return;
-  networks_ =
-      std::make_unique<InstancePool<BlazeFace>>([] { return std::make_unique<BlazeFace>(); });
+  const NetworkLibrary library = network_library(params.portable);
+  networks_ = std::make_unique<InstancePool<BlazeFace>>(
+      [library] { return std::make_unique<BlazeFace>(library); });
 }
 
 FaceEvidence FaceFinder::look(const Cloud& cloud, const Eigen::Vector3f& head_m,

@@ -10,6 +10,7 @@ namespace limbcast::segmenter {
 /// simulated people (tests/accuracy/README.md).
 struct FaceParams {
   bool enabled = true;
+  bool portable = false;  ///< computed alike on every processor: network_library()
   /// What the network sees: a square around the head's centre [m]. With 0.5 and 1 it tells front
   /// from back as well, with 0.4 worse.
   float patch_m = 0.75F;
@@ -55,6 +56,7 @@ struct ShadedSurfaceParams {
 /// joints are within 10 cm across the ray; with the square around the true hips 95 %.
 struct PoseNetworkParams {
   bool enabled = true;
+  bool portable = false;  ///< computed alike on every processor: network_library()
   /// Middle of the square that the network sees, below the head's centre [m], and the square's side
   /// [m]: room for raised arms.
   float middle_below_head_m = 0.7F;

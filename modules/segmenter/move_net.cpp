@@ -78,7 +78,8 @@ const TfliteFile& MoveNet::file() {
   return file;
 }
 
-MoveNet::MoveNet() : network_(file(), {"center", "heatmap", "regression", "offset"}) {}
+MoveNet::MoveNet(NetworkLibrary library)
+    : network_(file(), {"center", "heatmap", "regression", "offset"}, library) {}
 
 int MoveNet::find_person() const {
   return best_cell(network_.output(kCenter), 1, Eigen::Vector2f::Constant(kMiddle_cells));

@@ -53,6 +53,10 @@ void declare(config::Section& section, SegmenterOptions& options) {
       "CPU a person");
   section.add("second-pose-network", params.second_pose_network.enabled,
               "see them with a second network too, which errs elsewhere; 30 ms of CPU a person");
+  section.add(
+      "portable-networks", options.portable_networks,
+      "compute networks in 32 bits as every processor can, so that other computers give the "
+      "same poses; at half the speed where the processor has brain floats of 16 bits");
   section.add("range-image-margin-m", params.range_image_margin_m, "m",
               "space kept around a person in the range image", {0.0F, 2.0F});
 }
@@ -72,6 +76,9 @@ Params to_params(const SegmenterOptions& options) {
   params.seeds = seeds.at(options.seeds);
   params.growing = growing.at(options.growing);
   params.search = search.at(options.search);
+  for (bool* portable : {&params.faces.portable, &params.pose_network.portable,
+                         &params.second_pose_network.portable})
+    *portable = options.portable_networks;
   return params;
 }
 

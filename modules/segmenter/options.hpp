@@ -12,6 +12,8 @@ struct SegmenterOptions {
   std::string seeds = "auto";       ///< auto, skin, shape, both
   std::string growing = "refined";  ///< refined, paper
   std::string search = "auto";      ///< auto, kdtree, lattice (only for growing = paper)
+  /// Networks compute alike on every processor, in 32 bits: poses as on other computers.
+  bool portable_networks = false;
   Params params;
 };
 

@@ -76,10 +76,11 @@ std::vector<Eigen::Vector3f> points_of(const Cloud& cloud, const LabelledPerson&
 PoseNetwork::PoseNetwork(const PoseNetworkParams& params, PictureNetworkKind kind)
     : params_(params) {
   if (!params.enabled) return;
-  networks_ =
-      std::make_unique<InstancePool<PictureNetwork>>([kind]() -> std::unique_ptr<PictureNetwork> {
-        if (kind == PictureNetworkKind::kMoveNet) return std::make_unique<MoveNet>();
-        return std::make_unique<BlazePose>();
+  const NetworkLibrary library = network_library(params.portable);
+  networks_ = std::make_unique<InstancePool<PictureNetwork>>(
+      [kind, library]() -> std::unique_ptr<PictureNetwork> {
+        if (kind == PictureNetworkKind::kMoveNet) return std::make_unique<MoveNet>(library);
+        return std::make_unique<BlazePose>(library);
       });
 }
 

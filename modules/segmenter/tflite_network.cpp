@@ -1,25 +1,15 @@
 #include "modules/segmenter/tflite_network.hpp"
 
-#include <xnnpack.h>
-
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 
+#include "modules/segmenter/network_engine.hpp"
+
 namespace limbcast::segmenter {
 namespace {
-
-constexpr std::uint32_t kUndefined = XNN_INVALID_VALUE_ID;
-constexpr std::uint32_t kNoFlags = 0, kNoPadding = 0, kNoDilation = 1;
-
-void check(xnn_status status, const char* what) {
-  if (status != xnn_status_success)
-    throw std::runtime_error("XNNPACK cannot " + std::string(what) + " the pose network (error " +
-                             std::to_string(status) + ")");
-}
 
 std::size_t count_of(const TfliteTensor& tensor) {
   return std::accumulate(tensor.shape.begin(), tensor.shape.end(), std::size_t{1},
@@ -30,8 +20,7 @@ std::uint32_t find_output(const TfliteFile& file, const std::string& name) {
   const auto output =
       std::find_if(file.outputs.begin(), file.outputs.end(),
                    [&](std::uint32_t tensor) { return file.tensors.at(tensor).name == name; });
-  if (output == file.outputs.end())
-    throw std::runtime_error("the pose network has no output " + name);
+  if (output == file.outputs.end()) throw std::runtime_error("the network has no output " + name);
   return *output;
 }
 
@@ -48,186 +37,37 @@ std::vector<TfliteStep> steps_to(const TfliteFile& file, const std::vector<std::
   return steps;
 }
 
-/// Tells XNNPACK of tensors and steps.
-class Subgraph {
- public:
-  /// Tensors of `external` are the caller's memory, and have numbers from 0 on in this order.
-  Subgraph(const TfliteFile& file, const std::vector<std::uint32_t>& external)
-      : file_(file), values_(file.tensors.size(), kUndefined) {
-    check(xnn_create_subgraph(static_cast<std::uint32_t>(external.size()), kNoFlags, &subgraph_),
-          "begin");
-    for (std::uint32_t i = 0; i < external.size(); ++i)
-      define(external[i], i,
-             i == 0 ? XNN_VALUE_FLAG_EXTERNAL_INPUT : XNN_VALUE_FLAG_EXTERNAL_OUTPUT);
-  }
-  ~Subgraph() { xnn_delete_subgraph(subgraph_); }
-  Subgraph(const Subgraph&) = delete;
-  Subgraph& operator=(const Subgraph&) = delete;
-
-  xnn_subgraph_t get() const { return subgraph_; }
-
-  void add(const TfliteStep& step) {
-    switch (step.kind) {
-      case TfliteKind::kConvolution:
-        return add_convolution(step);
-      case TfliteKind::kDepthwiseConvolution:
-        return add_depthwise_convolution(step);
-      case TfliteKind::kAdd:
-        return check(xnn_define_add2(subgraph_, step.output_min, step.output_max, input(step, 0),
-                                     input(step, 1), value(step.output), kNoFlags),
-                     "add in");
-      case TfliteKind::kMaxPool:
-        return check(xnn_define_max_pooling_2d(subgraph_, kNoPadding, kNoPadding, kNoPadding,
-                                               kNoPadding, step.pool_rows, step.pool_columns,
-                                               step.stride_rows, step.stride_columns, kNoDilation,
-                                               kNoDilation, step.output_min, step.output_max,
-                                               input(step, 0), value(step.output), flags(step)),
-                     "pool in");
-      case TfliteKind::kSigmoid:
-        return check(xnn_define_sigmoid(subgraph_, input(step, 0), value(step.output), kNoFlags),
-                     "take the sigmoid in");
-      case TfliteKind::kRelu:
-        return check(xnn_define_clamp(subgraph_, 0.0F, std::numeric_limits<float>::infinity(),
-                                      input(step, 0), value(step.output), kNoFlags),
-                     "cut off in");
-      case TfliteKind::kReshape:
-        return add_reshape(step);
-      case TfliteKind::kResizeBilinear:
-        return add_resize(step);
-      case TfliteKind::kPad:
-        return add_padding(step);
-      default:
-        throw std::runtime_error("a step of the pose network is of a kind that is not known (" +
-                                 std::to_string(static_cast<int>(step.kind)) + ")");
-    }
-  }
-
- private:
-  std::uint32_t define(std::uint32_t tensor, std::uint32_t external_id, std::uint32_t flags) {
-    const TfliteTensor& told = file_.tensors.at(tensor);
-    check(
-        xnn_define_tensor_value(subgraph_, xnn_datatype_fp32, told.shape.size(), told.shape.data(),
-                                told.numbers.empty() ? nullptr : told.numbers.data(), external_id,
-                                flags, &values_.at(tensor)),
-        "hold a tensor of");
-    return values_.at(tensor);
-  }
-  std::uint32_t value(std::uint32_t tensor) {
-    const std::uint32_t value = values_.at(tensor);
-    return value == kUndefined ? define(tensor, XNN_INVALID_VALUE_ID, kNoFlags) : value;
-  }
-  std::uint32_t input(const TfliteStep& step, std::size_t index) {
-    return value(step.inputs.at(index));
-  }
-  const std::vector<std::size_t>& input_shape(const TfliteStep& step, std::size_t index) const {
-    return file_.tensors.at(step.inputs.at(index)).shape;
-  }
-  static std::uint32_t flags(const TfliteStep& step) {
-    return step.same_padding ? XNN_FLAG_TENSORFLOW_SAME_PADDING : kNoFlags;
-  }
-
-  void add_convolution(const TfliteStep& step) {
-    const auto& filter = input_shape(step, 1);  // outputs, rows, columns, inputs
-    check(xnn_define_convolution_2d(
-              subgraph_, kNoPadding, kNoPadding, kNoPadding, kNoPadding,
-              static_cast<std::uint32_t>(filter.at(1)), static_cast<std::uint32_t>(filter.at(2)),
-              step.stride_rows, step.stride_columns, kNoDilation, kNoDilation, 1, filter.at(3),
-              filter.at(0), step.output_min, step.output_max, input(step, 0), input(step, 1),
-              input(step, 2), value(step.output), flags(step)),
-          "convolve in");
-  }
-
-  void add_depthwise_convolution(const TfliteStep& step) {
-    const auto& filter = input_shape(step, 1);  // 1, rows, columns, outputs
-    const std::size_t channels = input_shape(step, 0).at(3);
-    check(xnn_define_depthwise_convolution_2d(
-              subgraph_, kNoPadding, kNoPadding, kNoPadding, kNoPadding,
-              static_cast<std::uint32_t>(filter.at(1)), static_cast<std::uint32_t>(filter.at(2)),
-              step.stride_rows, step.stride_columns, kNoDilation, kNoDilation,
-              static_cast<std::uint32_t>(filter.at(3) / channels), channels, step.output_min,
-              step.output_max, input(step, 0), input(step, 1), input(step, 2), value(step.output),
-              flags(step)),
-          "convolve each channel in");
-  }
-
-  void add_reshape(const TfliteStep& step) {
-    const auto& shape = file_.tensors.at(step.output).shape;
-    check(xnn_define_static_reshape(subgraph_, shape.size(), shape.data(), input(step, 0),
-                                    value(step.output), kNoFlags),
-          "reshape in");
-  }
-
-  void add_resize(const TfliteStep& step) {
-    const auto& shape = file_.tensors.at(step.output).shape;
-    check(xnn_define_static_resize_bilinear_2d(subgraph_, shape.at(1), shape.at(2), input(step, 0),
-                                               value(step.output), kNoFlags),
-          "resize in");
-  }
-
-  void add_padding(const TfliteStep& step) {
-    // Before and after each dimension in turn.
-    const std::vector<std::int32_t>& padding = file_.tensors.at(step.inputs.at(1)).integers;
-    std::vector<std::size_t> before, after;
-    for (std::size_t i = 0; i + 1 < padding.size(); i += 2) {
-      before.push_back(static_cast<std::size_t>(padding[i]));
-      after.push_back(static_cast<std::size_t>(padding[i + 1]));
-    }
-    constexpr float kPaddingValue = 0.0F;
-    check(xnn_define_static_constant_pad(subgraph_, before.data(), after.data(), kPaddingValue,
-                                         input(step, 0), value(step.output), kNoFlags),
-          "pad in");
-  }
-
-  const TfliteFile& file_;
-  std::vector<std::uint32_t> values_;  // XNNPACK's number of each tensor
-  xnn_subgraph_t subgraph_ = nullptr;
-};
-
-/// XNNPACK reads some bytes past the end of what it works on.
 std::vector<float> memory_for(const TfliteTensor& tensor) {
-  return std::vector<float>(count_of(tensor) + XNN_EXTRA_BYTES / sizeof(float));
+  return std::vector<float>(count_of(tensor) + kExtraNumbers);
 }
 
 }  // namespace
 
-class TfliteNetwork::Runtime {
- public:
-  explicit Runtime(const Subgraph& subgraph) {
-    constexpr pthreadpool_t kOneThread = nullptr;
-    check(xnn_create_runtime_v2(subgraph.get(), kOneThread, kNoFlags, &runtime_), "prepare");
-  }
-  ~Runtime() { xnn_delete_runtime(runtime_); }
-  Runtime(const Runtime&) = delete;
-  Runtime& operator=(const Runtime&) = delete;
+std::vector<NetworkLibrary> network_libraries() {
+  if (onednn_is_quick()) return {NetworkLibrary::kOneDnn, NetworkLibrary::kXnnpack};
+  return {NetworkLibrary::kXnnpack};
+}
 
-  void set_up(const std::vector<xnn_external_value>& values) {
-    check(xnn_setup_runtime(runtime_, values.size(), values.data()), "set up");
-  }
-  void run() { check(xnn_invoke_runtime(runtime_), "run"); }
+NetworkLibrary network_library(bool portable) {
+  return portable ? NetworkLibrary::kXnnpack : network_libraries().front();
+}
 
- private:
-  xnn_runtime_t runtime_ = nullptr;
-};
-
-TfliteNetwork::TfliteNetwork(const TfliteFile& file, const std::vector<std::string>& outputs) {
-  check(xnn_initialize(nullptr), "start on this processor for");
-  std::vector<std::uint32_t> external;
-  for (const std::string& name : outputs) external.push_back(find_output(file, name));
-  const std::vector<TfliteStep> steps = steps_to(file, external);
-  external.insert(external.begin(), file.input);
-  Subgraph subgraph(file, external);
-  for (const TfliteStep& step : steps) subgraph.add(step);
-  runtime_ = std::make_unique<Runtime>(subgraph);
-
+TfliteNetwork::TfliteNetwork(const TfliteFile& file, const std::vector<std::string>& outputs,
+                             NetworkLibrary library) {
+  NetworkPart part{file, {}, {}, nullptr, {}};
+  for (const std::string& name : outputs) part.outputs.push_back(find_output(file, name));
+  part.steps = steps_to(file, part.outputs);
   input_ = memory_for(file.tensors.at(file.input));
-  std::vector<xnn_external_value> values = {{0, input_.data()}};
-  for (std::uint32_t i = 1; i < external.size(); ++i)
-    values.push_back({i, outputs_.emplace_back(memory_for(file.tensors.at(external[i]))).data()});
-  runtime_->set_up(values);
+  part.input = input_.data();
+  for (const std::uint32_t output : part.outputs)
+    part.output_numbers.push_back(
+        outputs_.emplace_back(memory_for(file.tensors.at(output))).data());
+  engine_ =
+      library == NetworkLibrary::kOneDnn ? make_onednn_engine(part) : make_xnnpack_engine(part);
 }
 
 TfliteNetwork::~TfliteNetwork() = default;
 
-void TfliteNetwork::run() { runtime_->run(); }
+void TfliteNetwork::run() { engine_->run(); }
 
 }  // namespace limbcast::segmenter

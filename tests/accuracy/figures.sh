@@ -3,6 +3,7 @@
 #   tests/accuracy/figures.sh METHOD [DATA_DIR [BODIES]]
 # METHOD: paper or refined. DATA_DIR: default ../shared/data; BODIES: default D4,D5, the checking half (README.md says
 # what has seen it).
+# REPLAY_OPTIONS (environment): more options of limbcast-replay, as --segmenter.portable-networks=true.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 method=${1:?method: paper or refined}
@@ -30,7 +31,7 @@ record() {
 for set in "${sets[@]}"; do
   log=$out/$set.log
   [ -e "$log" ] || record "$set" "$log"
-  "$bin/limbcast-replay" "$log" "$out/$set.$method.log" --pose_fitter.method="$method" --log-level warning
+  "$bin/limbcast-replay" "$log" "$out/$set.$method.log" --pose_fitter.method="$method" ${REPLAY_OPTIONS:-} --log-level warning
   "$bin/limbcast-export-poses" "$out/$set.$method.log" >"$out/$set.$method.jsonl"
 done
 

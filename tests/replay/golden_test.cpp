@@ -32,24 +32,31 @@ class ReplayOfALog : public ::testing::TestWithParam<const char*> {
   static std::string replay_on(int threads) {
     static std::map<std::pair<std::string, int>, std::string> replayed;
     std::string& out = replayed[{GetParam(), threads}];
-    if (!out.empty()) return out;
-    out = test::temporary_folder(std::to_string(threads) + "_threads") + "/out.log";
+    if (out.empty()) out = replay("threads", std::to_string(threads));
+    return out;
+  }
+  static std::string replay(const std::string& option, const std::string& value) {
+    const std::string out = test::temporary_folder(option + "_" + value) + "/out.log";
     const auto result =
         test::run({test::program("limbcast-replay"),
                    test::repository_file(std::string("logs/") + GetParam() + ".log"), out,
-                   "--threads", std::to_string(threads)});
+                   "--" + option + "=" + value});
     EXPECT_EQ(result.exit_code, 0) << result.output;
     return out;
   }
 };
 
 // Update on purpose with tests/replay/update_golden.sh.
-TEST_P(ReplayOfALog, GivesTheRecordedPosesAndTheSameBytesOnAnyNumberOfThreads) {
-  const std::string one = replay_on(1);
+TEST_P(ReplayOfALog, GivesTheRecordedPoses) {
   const auto golden = pose_json::read_file(
       test::repository_file(std::string("tests/replay/golden/") + GetParam() + ".jsonl"));
-  EXPECT_THAT(pose_differences(golden, poses_of(one)), ::testing::IsEmpty());
-  const std::string bytes = bytes_of(one);
+  // Recorded so, since what is quickest computes in 16 bits on some processors.
+  const std::string replayed = replay("segmenter.portable-networks", "true");
+  EXPECT_THAT(pose_differences(golden, poses_of(replayed)), ::testing::IsEmpty());
+}
+
+TEST_P(ReplayOfALog, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const std::string bytes = bytes_of(replay_on(1));
   for (const int threads : {2, 4}) {
     // No EXPECT_EQ: it would print megabytes.
     EXPECT_TRUE(bytes_of(replay_on(threads)) == bytes) << threads << " threads give another log";

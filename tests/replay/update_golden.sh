@@ -13,7 +13,7 @@ mkdir -p "$golden"
 for log in logs/*.log; do
   name=$(basename "$log" .log)
   echo "== $name"
-  "$bin/limbcast-replay" "$log" "$work/$name.log" --log-level warning
+  "$bin/limbcast-replay" "$log" "$work/$name.log" --segmenter.portable-networks=true --log-level warning
   "$bin/limbcast-export-poses" "$work/$name.log" > "$work/$name.jsonl"
   if [ -e "$golden/$name.jsonl" ]; then
     "$bin/compare_poses" "$golden/$name.jsonl" "$work/$name.jsonl"

@@ -70,6 +70,22 @@ TEST_P(NetworkAndJointsOfTheDemo, AreSeenWhereTheyAre) {
   }
 }
 
+TEST_P(NetworkAndJointsOfTheDemo, AreSeenInTheSamePlacesByPortableNetworks) {
+  constexpr float kNear_px = 4.0F;  // 2 cm at this person; the networks err by that, too
+  PoseNetworkParams params =
+      GetParam() == PictureNetworkKind::kMoveNet ? kSecondPoseNetwork : PoseNetworkParams{};
+  const LabelledPerson person{nobody_, kNobody, head_m_};
+  const ImagePose quick = PoseNetwork(params, GetParam()).look(cloud_, person, down_).value();
+  params.portable = true;
+  const ImagePose portable = PoseNetwork(params, GetParam()).look(cloud_, person, down_).value();
+  EXPECT_NEAR(quick.person_score, portable.person_score, 0.02F);
+  for (const ImageJoint& joint : quick.joints) {
+    const ImageJoint& other = find(portable, joint.joint);
+    EXPECT_LT((joint.px - other.px).norm(), kNear_px) << kJointNames[index(joint.joint)];
+    EXPECT_NEAR(joint.visibility, other.visibility, 0.05F) << kJointNames[index(joint.joint)];
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, NetworkAndJointsOfTheDemo,
                          ::testing::Values(PictureNetworkKind::kBlazePose,
                                            PictureNetworkKind::kMoveNet));

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 /// A network that is put together step by step.
 class SmallNetwork {
  public:
-  explicit SmallNetwork(std::vector<std::size_t> input_shape) {
+  SmallNetwork(NetworkLibrary library, std::vector<std::size_t> input_shape) : library_(library) {
     add_tensor(std::move(input_shape));
   }
 
@@ -42,42 +42,56 @@ class SmallNetwork {
     file_.outputs.push_back(step.output);
     return file_.steps.emplace_back(step);
   }
+  /// The last step's result.
+  std::uint32_t last() const { return file_.outputs.back(); }
   /// `count` numbers of the last step's result.
   std::vector<float> run(const std::vector<float>& input, std::size_t count) const {
-    TfliteNetwork network(file_, {file_.tensors.at(file_.outputs.back()).name});
+    std::vector<std::string> outputs;
+    for (const std::uint32_t output : file_.outputs)
+      outputs.push_back(file_.tensors.at(output).name);
+    TfliteNetwork network(file_, outputs, library_);
     std::copy(input.begin(), input.end(), network.input());
     network.run();
-    return {network.output(0), network.output(0) + count};
+    const float* last = network.output(outputs.size() - 1);
+    return {last, last + count};
   }
 
  private:
+  NetworkLibrary library_;
   TfliteFile file_;
 };
 
-TEST(TfliteNetwork, ConvolvesAllChannels) {
-  SmallNetwork network({1, 1, 2, 2});
+class TfliteNetworkBy : public testing::TestWithParam<NetworkLibrary> {};
+
+INSTANTIATE_TEST_SUITE_P(Each, TfliteNetworkBy, testing::ValuesIn(network_libraries()),
+                         [](const auto& tested) {
+                           return tested.param == NetworkLibrary::kOneDnn ? "OneDnn" : "Xnnpack";
+                         });
+
+TEST_P(TfliteNetworkBy, ConvolvesAllChannels) {
+  SmallNetwork network(GetParam(), {1, 1, 2, 2});
   const auto filter = network.add_tensor({1, 1, 1, 2}, {2.0F, 3.0F});
   const auto bias = network.add_tensor({1}, {0.5F});
   network.add_step(TfliteKind::kConvolution, {0, filter, bias}, {1, 1, 2, 1});
   EXPECT_THAT(network.run({1.0F, 10.0F, 2.0F, 20.0F}, 2), ElementsAre(32.5F, 64.5F));
 }
 
-TEST(TfliteNetwork, ConvolvesEachChannelAlone) {
-  SmallNetwork network({1, 1, 2, 2});
+TEST_P(TfliteNetworkBy, ConvolvesEachChannelAlone) {
+  SmallNetwork network(GetParam(), {1, 1, 2, 2});
   const auto filter = network.add_tensor({1, 1, 2, 2}, {1.0F, 2.0F, 3.0F, 4.0F});
   const auto bias = network.add_tensor({2}, {0.0F, 0.5F});
   network.add_step(TfliteKind::kDepthwiseConvolution, {0, filter, bias}, {1, 1, 1, 2});
   EXPECT_THAT(network.run({1.0F, 10.0F, 2.0F, 20.0F}, 2), ElementsAre(7.0F, 100.5F));
 }
 
-TEST(TfliteNetwork, CutsOffWhatIsNegative) {
-  SmallNetwork network({1, 1, 3, 1});
+TEST_P(TfliteNetworkBy, CutsOffWhatIsNegative) {
+  SmallNetwork network(GetParam(), {1, 1, 3, 1});
   network.add_step(TfliteKind::kRelu, {0}, {1, 1, 3, 1});
   EXPECT_THAT(network.run({-2.0F, 0.5F, 7.0F}, 3), ElementsAre(0.0F, 0.5F, 7.0F));
 }
 
-TEST(TfliteNetwork, PadsTheOddPixelAfterAsTensorFlowDoes) {
-  SmallNetwork network({1, 1, 4, 1});
+TEST_P(TfliteNetworkBy, PadsTheOddPixelAfterAsTensorFlowDoes) {
+  SmallNetwork network(GetParam(), {1, 1, 4, 1});
   const auto filter = network.add_tensor({1, 1, 3, 1}, {1.0F, 10.0F, 100.0F});
   const auto bias = network.add_tensor({1}, {0.0F});
   TfliteStep& step = network.add_step(TfliteKind::kConvolution, {0, filter, bias}, {1, 1, 2, 1});
@@ -86,8 +100,8 @@ TEST(TfliteNetwork, PadsTheOddPixelAfterAsTensorFlowDoes) {
   EXPECT_THAT(network.run({1.0F, 2.0F, 3.0F, 4.0F}, 2), ElementsAre(321.0F, 43.0F));
 }
 
-TEST(TfliteNetwork, CutsWhatAnActivationCuts) {
-  SmallNetwork network({1, 1, 3, 1});
+TEST_P(TfliteNetworkBy, CutsWhatAnActivationCuts) {
+  SmallNetwork network(GetParam(), {1, 1, 3, 1});
   const auto other = network.add_tensor({1, 1, 3, 1}, {0.0F, 0.0F, 0.0F});
   TfliteStep& step = network.add_step(TfliteKind::kAdd, {0, other}, {1, 1, 3, 1});
   step.output_min = 0.0F;
@@ -95,38 +109,48 @@ TEST(TfliteNetwork, CutsWhatAnActivationCuts) {
   EXPECT_THAT(network.run({-1.0F, 5.0F, 7.0F}, 3), ElementsAre(0.0F, 5.0F, 6.0F));
 }
 
-TEST(TfliteNetwork, PadsBeforeAndAfter) {
-  SmallNetwork network({1, 1, 2, 1});
+TEST_P(TfliteNetworkBy, GoesOnFromAnOutput) {
+  SmallNetwork network(GetParam(), {1, 1, 2, 1});
+  const std::uint32_t cut = network.add_step(TfliteKind::kRelu, {0}, {1, 1, 2, 1}).output;
+  const auto filter = network.add_tensor({1, 1, 1, 1}, {2.0F});
+  const auto bias = network.add_tensor({1}, {1.0F});
+  network.add_step(TfliteKind::kConvolution, {cut, filter, bias}, {1, 1, 2, 1});
+  network.add_step(TfliteKind::kAdd, {network.last(), cut}, {1, 1, 2, 1});
+  EXPECT_THAT(network.run({-1.0F, 3.0F}, 2), ElementsAre(1.0F, 10.0F));
+}
+
+TEST_P(TfliteNetworkBy, PadsBeforeAndAfter) {
+  SmallNetwork network(GetParam(), {1, 1, 2, 1});
   const auto padding = network.add_tensor({4, 2}, {}, {0, 0, 0, 0, 2, 1, 0, 0});
   network.add_step(TfliteKind::kPad, {0, padding}, {1, 1, 5, 1});
   EXPECT_THAT(network.run({1.0F, 2.0F}, 5), ElementsAre(0.0F, 0.0F, 1.0F, 2.0F, 0.0F));
 }
 
-TEST(TfliteNetwork, TakesTheLargestOfAPool) {
-  SmallNetwork network({1, 2, 4, 1});
+TEST_P(TfliteNetworkBy, TakesTheLargestOfAPool) {
+  SmallNetwork network(GetParam(), {1, 2, 4, 1});
   TfliteStep& step = network.add_step(TfliteKind::kMaxPool, {0}, {1, 1, 2, 1});
   step.pool_rows = step.pool_columns = step.stride_rows = step.stride_columns = 2;
   EXPECT_THAT(network.run({1.0F, 2.0F, 3.0F, 4.0F, 8.0F, 7.0F, 6.0F, 5.0F}, 2),
               ElementsAre(8.0F, 6.0F));
 }
 
-TEST(TfliteNetwork, TakesTheSigmoidAndReshapes) {
-  SmallNetwork network({1, 1, 1, 2});
+TEST_P(TfliteNetworkBy, TakesTheSigmoidAndReshapes) {
+  SmallNetwork network(GetParam(), {1, 1, 1, 2});
   TfliteStep& sigmoid = network.add_step(TfliteKind::kSigmoid, {0}, {1, 1, 1, 2});
   const std::uint32_t seen = sigmoid.output;
   network.add_step(TfliteKind::kReshape, {seen}, {1, 2});
   EXPECT_THAT(network.run({0.0F, std::log(3.0F)}, 2), ElementsAre(0.5F, FloatEq(0.75F)));
 }
 
-TEST(TfliteNetwork, ResizesBetweenTheMiddlesOfPixels) {
-  SmallNetwork network({1, 1, 2, 1});
+TEST_P(TfliteNetworkBy, ResizesBetweenTheMiddlesOfPixels) {
+  SmallNetwork network(GetParam(), {1, 1, 2, 1});
   network.add_step(TfliteKind::kResizeBilinear, {0}, {1, 2, 4, 1});
   EXPECT_THAT(network.run({0.0F, 4.0F}, 8),
               ElementsAre(0.0F, 1.0F, 3.0F, 4.0F, 0.0F, 1.0F, 3.0F, 4.0F));
 }
 
-TEST(TfliteNetwork, RefusesAStepThatItDoesNotKnow) {
-  SmallNetwork network({1, 1, 1, 1});
+TEST_P(TfliteNetworkBy, RefusesAStepThatItDoesNotKnow) {
+  SmallNetwork network(GetParam(), {1, 1, 1, 1});
   constexpr int kRankOfAMatrix = 110;
   network.add_step(static_cast<TfliteKind>(kRankOfAMatrix), {0}, {1});
   try {
@@ -137,9 +161,45 @@ TEST(TfliteNetwork, RefusesAStepThatItDoesNotKnow) {
   }
 }
 
+/// Picture that a network sees people's limbs in or not; what counts is that it is no even one.
+void draw_waves(std::size_t count, float* numbers) {
+  for (std::size_t i = 0; i < count; ++i)
+    numbers[i] = static_cast<float>(0.5 + 0.4 * std::sin(0.01 * static_cast<double>(i)));
+}
+
+TEST(TfliteNetwork, GivesNearlyTheSameByEachLibrary) {
+  std::vector<std::vector<float>> results;
+  for (const NetworkLibrary library : network_libraries()) {
+    TfliteNetwork network(BlazeFace::file(), {"reshaped_classifier_face_4"}, library);
+    draw_waves(std::size_t{192} * 192 * 3, network.input());
+    network.run();
+    results.emplace_back(network.output(0), network.output(0) + std::size_t{48} * 48);
+  }
+  const auto [least, most] = std::minmax_element(results[0].begin(), results[0].end());
+  EXPECT_GT(*most - *least, 2.0F) << "an even picture tells nothing";
+  // Brain floats have 8 bits, over some 60 layers.
+  for (const auto& result : results)
+    for (std::size_t i = 0; i < result.size(); ++i)
+      ASSERT_NEAR(result[i], results[0][i], 0.3F) << i;
+}
+
+TEST_P(TfliteNetworkBy, GivesTheSameAgainAndAgain) {
+  TfliteNetwork network(BlazeFace::file(), {"reshaped_regressor_face_4"}, GetParam());
+  constexpr std::size_t kNumbers = std::size_t{48} * 48 * 16;
+  draw_waves(std::size_t{192} * 192 * 3, network.input());
+  network.run();
+  const std::vector<float> first(network.output(0), network.output(0) + kNumbers);
+  std::fill_n(network.input(), std::size_t{192} * 192 * 3, 0.0F);
+  network.run();
+  EXPECT_NE(first, std::vector<float>(network.output(0), network.output(0) + kNumbers));
+  draw_waves(std::size_t{192} * 192 * 3, network.input());
+  network.run();
+  EXPECT_EQ(first, std::vector<float>(network.output(0), network.output(0) + kNumbers));
+}
+
 TEST(TfliteNetwork, RefusesAnOutputThatTheFileLacks) {
   try {
-    const TfliteNetwork network(BlazePose::file(), {"Identity", "hands"});
+    const TfliteNetwork network(BlazePose::file(), {"Identity", "hands"}, network_library(false));
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("no output hands"));
