@@ -71,9 +71,10 @@ TEST_P(NetworkAndJointsOfTheDemo, AreSeenWhereTheyAre) {
 }
 
 TEST_P(NetworkAndJointsOfTheDemo, AreSeenInTheSamePlacesByPortableNetworks) {
-  constexpr float kNear_px = 4.0F;  // 2 cm at this person; the networks err by that, too
-  PoseNetworkParams params =
-      GetParam() == PictureNetworkKind::kMoveNet ? kSecondPoseNetwork : PoseNetworkParams{};
+  const bool is_move_net = GetParam() == PictureNetworkKind::kMoveNet;
+  // 0.6 and 2 cm at this person: MoveNet marks cells, and the best one may be a neighbour.
+  const float near_px = is_move_net ? 4.0F : 1.0F;
+  PoseNetworkParams params = is_move_net ? kSecondPoseNetwork : PoseNetworkParams{};
   const LabelledPerson person{nobody_, kNobody, head_m_};
   const ImagePose quick = PoseNetwork(params, GetParam()).look(cloud_, person, down_).value();
   params.portable = true;
@@ -81,7 +82,7 @@ TEST_P(NetworkAndJointsOfTheDemo, AreSeenInTheSamePlacesByPortableNetworks) {
   EXPECT_NEAR(quick.person_score, portable.person_score, 0.02F);
   for (const ImageJoint& joint : quick.joints) {
     const ImageJoint& other = find(portable, joint.joint);
-    EXPECT_LT((joint.px - other.px).norm(), kNear_px) << kJointNames[index(joint.joint)];
+    EXPECT_LT((joint.px - other.px).norm(), near_px) << kJointNames[index(joint.joint)];
     EXPECT_NEAR(joint.visibility, other.visibility, 0.05F) << kJointNames[index(joint.joint)];
   }
 }
