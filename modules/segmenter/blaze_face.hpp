@@ -27,7 +27,7 @@ class BlazeFace {
   /// A file that is part of the program; the same at each call.
   static const TfliteFile& file();
 
-  explicit BlazeFace(NetworkLibrary library = network_library(false));
+  explicit BlazeFace(NetworkLibrary library = network_libraries().front());
 
   /// The likeliest face whose middle is at most `reach_px` from the picture's middle. The picture:
   /// the face upright; blue, green and red.

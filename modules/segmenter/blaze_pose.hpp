@@ -13,7 +13,7 @@ class BlazePose : public PictureNetwork {
   /// A file that is part of the program; the same at each call.
   static const TfliteFile& file();
 
-  explicit BlazePose(NetworkLibrary library = network_library(false));
+  explicit BlazePose(NetworkLibrary library = network_libraries().front());
   ImagePose see(const cv::Mat3b& picture) override;
 
  private:

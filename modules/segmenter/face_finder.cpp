@@ -24,9 +24,8 @@ FaceEvidence to_evidence(const SeenFace& face, float m_per_px, const FaceParams&
 
 FaceFinder::FaceFinder(const FaceParams& params) : params_(params) {
   if (!params.enabled) return;
-  const NetworkLibrary library = network_library(params.portable);
   networks_ = std::make_unique<InstancePool<BlazeFace>>(
-      [library] { return std::make_unique<BlazeFace>(library); });
+      [library = params.library] { return std::make_unique<BlazeFace>(library); });
 }
 
 FaceEvidence FaceFinder::look(const Cloud& cloud, const Eigen::Vector3f& head_m,

@@ -4,13 +4,15 @@
 #include <cstdint>
 #include <string>
 
+#include "modules/segmenter/network_library.hpp"
+
 namespace limbcast::segmenter {
 
 /// Faces at the heads of people (face_finder.hpp). Chosen on bodies D1 to D3 of stereo_dev and on
 /// simulated people (tests/accuracy/README.md).
 struct FaceParams {
   bool enabled = true;
-  bool portable = false;  ///< computed alike on every processor: network_library()
+  NetworkLibrary library = network_libraries().front();  ///< that computes it
   /// What the network sees: a square around the head's centre [m]. With 0.5 and 1 it tells front
   /// from back as well, with 0.4 worse.
   float patch_m = 0.75F;
@@ -56,7 +58,7 @@ struct ShadedSurfaceParams {
 /// joints are within 10 cm across the ray; with the square around the true hips 95 %.
 struct PoseNetworkParams {
   bool enabled = true;
-  bool portable = false;  ///< computed alike on every processor: network_library()
+  NetworkLibrary library = network_libraries().front();  ///< that computes it
   /// Middle of the square that the network sees, below the head's centre [m], and the square's side
   /// [m]: room for raised arms.
   float middle_below_head_m = 0.7F;

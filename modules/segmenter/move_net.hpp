@@ -16,7 +16,7 @@ class MoveNet : public PictureNetwork {
   /// A file that is part of the program; the same at each call.
   static const TfliteFile& file();
 
-  explicit MoveNet(NetworkLibrary library = network_library(false));
+  explicit MoveNet(NetworkLibrary library = network_libraries().front());
   ImagePose see(const cv::Mat3b& picture) override;
 
  private:

@@ -8,19 +8,6 @@
 
 namespace limbcast::segmenter {
 
-/// What computes networks.
-enum class NetworkLibrary {
-  kXnnpack,  ///< Google's: in 32 bits, quick on every processor
-  /// Intel's: in brain floats of 16 bits, for processors with matrix units for them (AMX), where
-  /// it takes half the time. Without those it is no quicker.
-  kOneDnn
-};
-
-/// Those that this processor has kernels for, the quickest first.
-std::vector<NetworkLibrary> network_libraries();
-/// The quickest one, or the one that gives nearly the same numbers on every processor.
-NetworkLibrary network_library(bool portable);
-
 /// Computes a network in memory that is told once; for one thread at a time.
 class NetworkEngine {
  public:

@@ -46,13 +46,14 @@ void declare(config::Section& section, SegmenterOptions& options) {
   section.add("min-skin-log-ratio", params.skin.min_log_ratio, "",
               "log likelihood ratio above which a colour is skin", {-20.0F, 20.0F});
   section.add("faces", params.faces.enabled,
-              "look for faces, which tell front from back; 5 ms of CPU a person");
+              "look for faces, which tell front from back; 2 to 3 ms of CPU a person");
   section.add(
       "pose-network", params.pose_network.enabled,
-      "see each person's joints with a network, in the colour image or the lit surface; 10 ms of "
-      "CPU a person");
-  section.add("second-pose-network", params.second_pose_network.enabled,
-              "see them with a second network too, which errs elsewhere; 30 ms of CPU a person");
+      "see each person's joints with a network, in the colour image or the lit surface; 4 to 6 ms "
+      "of CPU a person");
+  section.add(
+      "second-pose-network", params.second_pose_network.enabled,
+      "see them with a second network too, which errs elsewhere; 8 to 22 ms of CPU a person");
   section.add(
       "portable-networks", options.portable_networks,
       "compute networks in 32 bits as every processor can, so that other computers give the "
@@ -76,9 +77,9 @@ Params to_params(const SegmenterOptions& options) {
   params.seeds = seeds.at(options.seeds);
   params.growing = growing.at(options.growing);
   params.search = search.at(options.search);
-  for (bool* portable : {&params.faces.portable, &params.pose_network.portable,
-                         &params.second_pose_network.portable})
-    *portable = options.portable_networks;
+  if (options.portable_networks)
+    params.faces.library = params.pose_network.library = params.second_pose_network.library =
+        NetworkLibrary::kXnnpack;
   return params;
 }
 

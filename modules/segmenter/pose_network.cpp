@@ -76,9 +76,8 @@ std::vector<Eigen::Vector3f> points_of(const Cloud& cloud, const LabelledPerson&
 PoseNetwork::PoseNetwork(const PoseNetworkParams& params, PictureNetworkKind kind)
     : params_(params) {
   if (!params.enabled) return;
-  const NetworkLibrary library = network_library(params.portable);
   networks_ = std::make_unique<InstancePool<PictureNetwork>>(
-      [kind, library]() -> std::unique_ptr<PictureNetwork> {
+      [kind, library = params.library]() -> std::unique_ptr<PictureNetwork> {
         if (kind == PictureNetworkKind::kMoveNet) return std::make_unique<MoveNet>(library);
         return std::make_unique<BlazePose>(library);
       });

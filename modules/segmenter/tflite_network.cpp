@@ -48,10 +48,6 @@ std::vector<NetworkLibrary> network_libraries() {
   return {NetworkLibrary::kXnnpack};
 }
 
-NetworkLibrary network_library(bool portable) {
-  return portable ? NetworkLibrary::kXnnpack : network_libraries().front();
-}
-
 TfliteNetwork::TfliteNetwork(const TfliteFile& file, const std::vector<std::string>& outputs,
                              NetworkLibrary library) {
   NetworkPart part{file, {}, {}, nullptr, {}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/segmenter/network_engine.hpp"
+#include "modules/segmenter/network_library.hpp"
 #include "modules/segmenter/tflite_file.hpp"
 
 namespace limbcast::segmenter {
@@ -17,7 +18,7 @@ class TfliteNetwork {
   /// `file` lives longer than this object. `outputs`: names of the tensors that are wanted. Throws
   /// std::runtime_error where the file lacks one, or a step to them is not known here.
   TfliteNetwork(const TfliteFile& file, const std::vector<std::string>& outputs,
-                NetworkLibrary library);
+                NetworkLibrary library = network_libraries().front());
   ~TfliteNetwork();
 
   /// Rows, columns and channels of the image, which the caller writes before each run.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "modules/segmenter/network_engine.hpp"
+#include "modules/segmenter/step_adder.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -19,7 +20,7 @@ void check(xnn_status status, const char* what) {
 }
 
 /// Tells XNNPACK of tensors and steps.
-class Subgraph {
+class Subgraph : public StepAdder {
  public:
   /// Tensors of `external` are the caller's memory, and have numbers from 0 on in this order.
   Subgraph(const TfliteFile& file, const std::vector<std::uint32_t>& external)
@@ -30,47 +31,9 @@ class Subgraph {
       define(external[i], i,
              i == 0 ? XNN_VALUE_FLAG_EXTERNAL_INPUT : XNN_VALUE_FLAG_EXTERNAL_OUTPUT);
   }
-  ~Subgraph() { xnn_delete_subgraph(subgraph_); }
-  Subgraph(const Subgraph&) = delete;
-  Subgraph& operator=(const Subgraph&) = delete;
+  ~Subgraph() override { xnn_delete_subgraph(subgraph_); }
 
   xnn_subgraph_t get() const { return subgraph_; }
-
-  void add(const TfliteStep& step) {
-    switch (step.kind) {
-      case TfliteKind::kConvolution:
-        return add_convolution(step);
-      case TfliteKind::kDepthwiseConvolution:
-        return add_depthwise_convolution(step);
-      case TfliteKind::kAdd:
-        return check(xnn_define_add2(subgraph_, step.output_min, step.output_max, input(step, 0),
-                                     input(step, 1), value(step.output), kNoFlags),
-                     "add in");
-      case TfliteKind::kMaxPool:
-        return check(xnn_define_max_pooling_2d(subgraph_, kNoPadding, kNoPadding, kNoPadding,
-                                               kNoPadding, step.pool_rows, step.pool_columns,
-                                               step.stride_rows, step.stride_columns, kNoDilation,
-                                               kNoDilation, step.output_min, step.output_max,
-                                               input(step, 0), value(step.output), flags(step)),
-                     "pool in");
-      case TfliteKind::kSigmoid:
-        return check(xnn_define_sigmoid(subgraph_, input(step, 0), value(step.output), kNoFlags),
-                     "take the sigmoid in");
-      case TfliteKind::kRelu:
-        return check(xnn_define_clamp(subgraph_, 0.0F, std::numeric_limits<float>::infinity(),
-                                      input(step, 0), value(step.output), kNoFlags),
-                     "cut off in");
-      case TfliteKind::kReshape:
-        return add_reshape(step);
-      case TfliteKind::kResizeBilinear:
-        return add_resize(step);
-      case TfliteKind::kPad:
-        return add_padding(step);
-      default:
-        throw std::runtime_error("a step of the network is of a kind that is not known (" +
-                                 std::to_string(static_cast<int>(step.kind)) + ")");
-    }
-  }
 
  private:
   std::uint32_t define(std::uint32_t tensor, std::uint32_t external_id, std::uint32_t flags) {
@@ -96,7 +59,7 @@ class Subgraph {
     return step.same_padding ? XNN_FLAG_TENSORFLOW_SAME_PADDING : kNoFlags;
   }
 
-  void add_convolution(const TfliteStep& step) {
+  void add_convolution(const TfliteStep& step) override {
     const auto& filter = input_shape(step, 1);  // outputs, rows, columns, inputs
     check(xnn_define_convolution_2d(
               subgraph_, kNoPadding, kNoPadding, kNoPadding, kNoPadding,
@@ -107,7 +70,7 @@ class Subgraph {
           "convolve in");
   }
 
-  void add_depthwise_convolution(const TfliteStep& step) {
+  void add_depthwise_convolution(const TfliteStep& step) override {
     const auto& filter = input_shape(step, 1);  // 1, rows, columns, outputs
     const std::size_t channels = input_shape(step, 0).at(3);
     check(xnn_define_depthwise_convolution_2d(
@@ -120,21 +83,46 @@ class Subgraph {
           "convolve each channel in");
   }
 
-  void add_reshape(const TfliteStep& step) {
+  void add_sum(const TfliteStep& step) override {
+    check(xnn_define_add2(subgraph_, step.output_min, step.output_max, input(step, 0),
+                          input(step, 1), value(step.output), kNoFlags),
+          "add in");
+  }
+
+  void add_max_pool(const TfliteStep& step) override {
+    check(xnn_define_max_pooling_2d(
+              subgraph_, kNoPadding, kNoPadding, kNoPadding, kNoPadding, step.pool_rows,
+              step.pool_columns, step.stride_rows, step.stride_columns, kNoDilation, kNoDilation,
+              step.output_min, step.output_max, input(step, 0), value(step.output), flags(step)),
+          "pool in");
+  }
+
+  void add_sigmoid(const TfliteStep& step) override {
+    check(xnn_define_sigmoid(subgraph_, input(step, 0), value(step.output), kNoFlags),
+          "take the sigmoid in");
+  }
+
+  void add_relu(const TfliteStep& step) override {
+    check(xnn_define_clamp(subgraph_, 0.0F, std::numeric_limits<float>::infinity(), input(step, 0),
+                           value(step.output), kNoFlags),
+          "cut off in");
+  }
+
+  void add_reshape(const TfliteStep& step) override {
     const auto& shape = file_.tensors.at(step.output).shape;
     check(xnn_define_static_reshape(subgraph_, shape.size(), shape.data(), input(step, 0),
                                     value(step.output), kNoFlags),
           "reshape in");
   }
 
-  void add_resize(const TfliteStep& step) {
+  void add_resize(const TfliteStep& step) override {
     const auto& shape = file_.tensors.at(step.output).shape;
     check(xnn_define_static_resize_bilinear_2d(subgraph_, shape.at(1), shape.at(2), input(step, 0),
                                                value(step.output), kNoFlags),
           "resize in");
   }
 
-  void add_padding(const TfliteStep& step) {
+  void add_padding(const TfliteStep& step) override {
     // Before and after each dimension in turn.
     const std::vector<std::int32_t>& padding = file_.tensors.at(step.inputs.at(1)).integers;
     std::vector<std::size_t> before, after;

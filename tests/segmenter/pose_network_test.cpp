@@ -77,7 +77,7 @@ TEST_P(NetworkAndJointsOfTheDemo, AreSeenInTheSamePlacesByPortableNetworks) {
   PoseNetworkParams params = is_move_net ? kSecondPoseNetwork : PoseNetworkParams{};
   const LabelledPerson person{nobody_, kNobody, head_m_};
   const ImagePose quick = PoseNetwork(params, GetParam()).look(cloud_, person, down_).value();
-  params.portable = true;
+  params.library = NetworkLibrary::kXnnpack;
   const ImagePose portable = PoseNetwork(params, GetParam()).look(cloud_, person, down_).value();
   EXPECT_NEAR(quick.person_score, portable.person_score, 0.02F);
   for (const ImageJoint& joint : quick.joints) {

@@ -44,19 +44,26 @@ class SmallNetwork {
   }
   /// The last step's result.
   std::uint32_t last() const { return file_.outputs.back(); }
-  /// `count` numbers of the last step's result.
+  /// `count` numbers of the last step's result, where no other is wanted or those of all steps.
   std::vector<float> run(const std::vector<float>& input, std::size_t count) const {
-    std::vector<std::string> outputs;
-    for (const std::uint32_t output : file_.outputs)
-      outputs.push_back(file_.tensors.at(output).name);
-    TfliteNetwork network(file_, outputs, library_);
-    std::copy(input.begin(), input.end(), network.input());
-    network.run();
-    const float* last = network.output(outputs.size() - 1);
-    return {last, last + count};
+    return run(input, count, {last()});
+  }
+  std::vector<float> run_all(const std::vector<float>& input, std::size_t count) const {
+    return run(input, count, file_.outputs);
   }
 
  private:
+  std::vector<float> run(const std::vector<float>& input, std::size_t count,
+                         const std::vector<std::uint32_t>& wanted) const {
+    std::vector<std::string> names;
+    for (const std::uint32_t output : wanted) names.push_back(file_.tensors.at(output).name);
+    TfliteNetwork network(file_, names, library_);
+    std::copy(input.begin(), input.end(), network.input());
+    network.run();
+    const float* last = network.output(names.size() - 1);
+    return {last, last + count};
+  }
+
   NetworkLibrary library_;
   TfliteFile file_;
 };
@@ -109,14 +116,32 @@ TEST_P(TfliteNetworkBy, CutsWhatAnActivationCuts) {
   EXPECT_THAT(network.run({-1.0F, 5.0F, 7.0F}, 3), ElementsAre(0.0F, 5.0F, 6.0F));
 }
 
+/// Of so many rows that 16 bits are enough for what is no output.
+const std::vector<std::size_t> kTallShape = {1, 8, 1, 1};
+const std::vector<float> kTallInput = {-1.0F, 0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F};
+
 TEST_P(TfliteNetworkBy, GoesOnFromAnOutput) {
-  SmallNetwork network(GetParam(), {1, 1, 2, 1});
-  const std::uint32_t cut = network.add_step(TfliteKind::kRelu, {0}, {1, 1, 2, 1}).output;
+  SmallNetwork network(GetParam(), kTallShape);
   const auto filter = network.add_tensor({1, 1, 1, 1}, {2.0F});
   const auto bias = network.add_tensor({1}, {1.0F});
-  network.add_step(TfliteKind::kConvolution, {cut, filter, bias}, {1, 1, 2, 1});
-  network.add_step(TfliteKind::kAdd, {network.last(), cut}, {1, 1, 2, 1});
-  EXPECT_THAT(network.run({-1.0F, 3.0F}, 2), ElementsAre(1.0F, 10.0F));
+  const std::uint32_t cut = network.add_step(TfliteKind::kRelu, {0}, kTallShape).output;
+  network.add_step(TfliteKind::kConvolution, {cut, filter, bias}, kTallShape);
+  network.add_step(TfliteKind::kAdd, {network.last(), cut}, kTallShape);
+  EXPECT_THAT(network.run_all(kTallInput, 8),
+              ElementsAre(1.0F, 1.0F, 4.0F, 7.0F, 10.0F, 13.0F, 16.0F, 19.0F));
+}
+
+TEST_P(TfliteNetworkBy, KeepsWhatIsNeededInAnotherShape) {
+  SmallNetwork network(GetParam(), kTallShape);
+  const auto filter = network.add_tensor({1, 1, 1, 1}, {2.0F});
+  const auto bias = network.add_tensor({1}, {1.0F});
+  const std::uint32_t cut = network.add_step(TfliteKind::kRelu, {0}, kTallShape).output;
+  const std::uint32_t shaped = network.add_step(TfliteKind::kReshape, {cut}, kTallShape).output;
+  network.add_step(TfliteKind::kConvolution, {shaped, filter, bias}, kTallShape);
+  network.add_step(TfliteKind::kConvolution, {network.last(), filter, bias}, kTallShape);
+  network.add_step(TfliteKind::kAdd, {network.last(), shaped}, kTallShape);
+  EXPECT_THAT(network.run(kTallInput, 8),
+              ElementsAre(3.0F, 3.0F, 8.0F, 13.0F, 18.0F, 23.0F, 28.0F, 33.0F));
 }
 
 TEST_P(TfliteNetworkBy, PadsBeforeAndAfter) {
@@ -199,7 +224,7 @@ TEST_P(TfliteNetworkBy, GivesTheSameAgainAndAgain) {
 
 TEST(TfliteNetwork, RefusesAnOutputThatTheFileLacks) {
   try {
-    const TfliteNetwork network(BlazePose::file(), {"Identity", "hands"}, network_library(false));
+    const TfliteNetwork network(BlazePose::file(), {"Identity", "hands"});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("no output hands"));

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+namespace limbcast::segmenter {
+
+/// What computes networks.
+enum class NetworkLibrary {
+  /// Google's, in 32 bits: quick on every processor, and gives nearly the same numbers on each.
+  kXnnpack,
+  /// Intel's: in brain floats of 16 bits, for processors with matrix units for them (AMX), where
+  /// it takes half the time. Without those it is no quicker.
+  kOneDnn
+};
+
+/// Those that this processor has kernels for, the quickest first.
+std::vector<NetworkLibrary> network_libraries();
+
+}  // namespace limbcast::segmenter
