@@ -10,6 +10,7 @@
 #include "modules/reconstructor/depth_to_cloud.hpp"
 #include "modules/reconstructor/matcher.hpp"
 #include "modules/reconstructor/near_look.hpp"
+#include "modules/reconstructor/row_alignment.hpp"
 #include "modules/reconstructor/triangulation.hpp"
 
 namespace limbcast::reconstructor {
@@ -101,7 +102,8 @@ DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {
 }
 
 Cloud StereoReconstructor::reconstruct(const StereoImages& images) const {
-  const RectifiedPair pair = rectifier_.rectify(images.left, images.right);
+  const RectifiedPair pair =
+      with_rows_aligned(rectifier_.rectify(images.left, images.right), rectifier_.camera());
   TriangulationParams params;
   params.near_limit_m = options_.near_limit_m;
   params.far_limit_m = options_.far_limit_m;

@@ -90,6 +90,10 @@ simulate p_dense_multi multi laser 60 889 "${dense[@]}"
 simulate p_dense_nohuman3 nohuman laser 200 890 "${dense[@]}"
 simulate p_laser_nohuman5 nohuman laser 200 891
 simulate p_few_nohuman2 nohuman laser 150 892 "${few[@]}"
+# Rooms again: each hundred more that the trees have seen leaves fewer people invented in others.
+simulate p_nohuman6 nohuman stereo 300 893
+simulate p_nohuman7 nohuman stereo 300 894
+simulate p_depth_nohuman3 nohuman depth 150 895 --color
 
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done

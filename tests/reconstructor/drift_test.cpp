@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,6 +12,7 @@
 
 #include "modules/reconstructor/row_differences.hpp"
 #include "tests/reconstructor/stereo_truth.hpp"
+#include "tests/reconstructor/synthetic_pair.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
@@ -21,24 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kSecond_us = 1'000'000;
 
-/// Grey noise with structure of all sizes, as scenes have it.
-cv::Mat scene_texture() {
-  cv::Mat1f sum(480, 640, 0.0F);
-  cv::RNG random(7);
-  for (const double size_px : {1.5, 5.0, 15.0, 40.0}) {
-    cv::Mat1f noise(sum.size());
-    random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
-    cv::GaussianBlur(noise, noise, {}, size_px);
-    sum += noise * (30.0 * size_px);
-  }
-  cv::Mat grey;
-  sum.convertTo(grey, CV_8U, 1.0, 128.0);
-  return grey;
-}
-
 /// A wall at a disparity of 20 px, the right image shifted down and rolled about its middle.
 RectifiedPair turned_pair(double down_px, double roll_rad) {
-  const cv::Mat left = scene_texture();
+  const cv::Mat left = test::scene_texture();
   const double cos = std::cos(roll_rad);
   const double sin = std::sin(roll_rad);
   constexpr double kMiddleU = 320.0, kMiddleV = 240.0, kDisparity_px = 20.0;
@@ -146,14 +131,6 @@ std::vector<std::string> left_images(const std::string& folder, std::size_t ever
   return chosen;
 }
 
-/// The right camera turned by so many radians; nods and rolls are what bends a mount.
-StereoCalibration turned(StereoCalibration calibration, double nod_rad, double roll_rad) {
-  calibration.R = Eigen::AngleAxisd(nod_rad, Eigen::Vector3d::UnitX()) *
-                  Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()) * calibration.R;
-  calibration.rectification.reset();
-  return calibration;
-}
-
 /// The calibration beside OpenCV's example pairs: its names are its own, its lengths in squares.
 StereoCalibration example_calibration(const std::string& folder) {
   const cv::FileStorage file(folder + "/stereo_calibration.yml", cv::FileStorage::READ);
@@ -183,8 +160,8 @@ TEST(Drift, IsSeenOnRealPairsWithATurnedCalibrationOnly) {
   const std::vector<std::string> lefts = left_images(folder, 1);
   EXPECT_FALSE(drift_of(lefts, calibration));
   // 535 px * 0.0035 = 1.9 px; rolling, half of it or less.
-  EXPECT_NEAR(drift_of(lefts, turned(calibration, 0.0035, 0.0)).value_or(0.0), 1.9, 0.3);
-  EXPECT_TRUE(drift_of(lefts, turned(calibration, 0.0, 0.01)));
+  EXPECT_NEAR(drift_of(lefts, test::turned(calibration, 0.0035, 0.0)).value_or(0.0), 1.9, 0.3);
+  EXPECT_TRUE(drift_of(lefts, test::turned(calibration, 0.0, 0.01)));
 }
 
 TEST(Drift, IsSeenOnNoRecordingUnlessTheCalibrationIsTurned) {
@@ -196,8 +173,8 @@ TEST(Drift, IsSeenOnNoRecordingUnlessTheCalibrationIsTurned) {
     const StereoCalibration calibration = test::read_calibration(folder);
     const std::vector<std::string> lefts = left_images(folder, 2);
     EXPECT_FALSE(drift_of(lefts, calibration)) << name;
-    EXPECT_TRUE(drift_of(lefts, turned(calibration, 0.0035, 0.0))) << name;
-    EXPECT_TRUE(drift_of(lefts, turned(calibration, 0.0, 0.01))) << name;
+    EXPECT_TRUE(drift_of(lefts, test::turned(calibration, 0.0035, 0.0))) << name;
+    EXPECT_TRUE(drift_of(lefts, test::turned(calibration, 0.0, 0.01))) << name;
   }
 }
 

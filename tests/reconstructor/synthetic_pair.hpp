@@ -1,9 +1,11 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "common/camera/calibration.hpp"
@@ -64,6 +66,29 @@ inline reconstructor::RectifiedPair pair_of(const std::function<double(int, int)
     }
   }
   return pair;
+}
+
+/// Grey noise with structure of all sizes, as scenes have it.
+inline cv::Mat scene_texture() {
+  cv::Mat1f sum(480, 640, 0.0F);
+  cv::RNG random(7);
+  for (const double size_px : {1.5, 5.0, 15.0, 40.0}) {
+    cv::Mat1f noise(sum.size());
+    random.fill(noise, cv::RNG::NORMAL, 0.0, 1.0);
+    cv::GaussianBlur(noise, noise, {}, size_px);
+    sum += noise * (30.0 * size_px);
+  }
+  cv::Mat grey;
+  sum.convertTo(grey, CV_8U, 1.0, 128.0);
+  return grey;
+}
+
+/// The right camera turned by so many radians; nods and rolls are what bends a mount.
+inline StereoCalibration turned(StereoCalibration calibration, double nod_rad, double roll_rad) {
+  calibration.R = Eigen::AngleAxisd(nod_rad, Eigen::Vector3d::UnitX()) *
+                  Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()) * calibration.R;
+  calibration.rectification.reset();
+  return calibration;
 }
 
 }  // namespace limbcast::test

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "common/camera/pinhole_camera.hpp"
+#include "modules/reconstructor/corner_tracks.hpp"
+
+namespace limbcast::reconstructor {
+
+/// How a camera is turned against where its calibration has it [rad]; what a mount that bends does.
+/// A turn about the upright axis is not asked for: it moves hardly a row, but all disparities.
+struct CameraTurn {
+  double nod_rad = 0.0;   ///< about x: its image moves down
+  double roll_rad = 0.0;  ///< about z: its image turns clockwise
+};
+
+struct RowAlignmentParams {
+  /// Corners are looked for in images of about this width [px], then tracked once more in the
+  /// pair's own.
+  int search_width_px = 320;
+  CornerParams corners = {200, 0.02, 6.0, 15, 4, 0.3, 12.0};
+  /// The last tracking moves a corner that was found at this scale by a pixel or so.
+  double max_move_px = 1.5;
+  /// Fewer corners say nothing.
+  int min_corners = 40;
+  /// Rows that differ by less are left alone [px, root mean square over the image]: half a pixel
+  /// takes 15 of 100 right arms, a quarter 3, and pairs of stereo_dev whose rows match tell 0.1 at
+  /// most (tests/accuracy/README.md).
+  double min_shift_px = 0.15;
+};
+
+/// How the right camera of a rectified, 8-bit grey pair is turned, as the rows of its corners tell;
+/// nothing where there are too few. `camera` is both images'.
+std::optional<CameraTurn> find_right_turn(const RectifiedPair& pair, const PinholeCamera& camera,
+                                          const RowAlignmentParams& params = {});
+
+/// By how much a turn moves rows [px, root mean square over the image].
+double row_shift_px(const CameraTurn& turn, const PinholeCamera& camera);
+
+/// A rectified pair, grey or BGR; where its rows do not match, with the right image, in grey,
+/// turned to where they do.
+RectifiedPair with_rows_aligned(const RectifiedPair& pair, const PinholeCamera& camera,
+                                const RowAlignmentParams& params = {});
+
+}  // namespace limbcast::reconstructor
