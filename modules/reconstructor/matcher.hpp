@@ -4,6 +4,7 @@
 
 #include "modules/reconstructor/disparity.hpp"
 #include "modules/reconstructor/gaps.hpp"
+#include "modules/reconstructor/image_noise.hpp"
 #include "modules/reconstructor/semi_global.hpp"
 #include "modules/reconstructor/silhouettes.hpp"
 #include "modules/reconstructor/speckles.hpp"
@@ -12,6 +13,7 @@
 namespace limbcast::reconstructor {
 
 struct MatcherParams {
+  ImageNoiseParams noise;
   SemiGlobalParams semi_global;
   SpeckleParams speckles;
   SilhouetteParams silhouettes;
