@@ -46,8 +46,8 @@ std::string DriftWatch::warning() const {
     if (!drift_px) return;
     text.append(text.empty() ? "" : "; ");
     text.append(formatted(
-        "the calibration of '%s' has drifted: the rows of the two images differ by %.1f px; "
-        "measure it with limbcast-calibrate check and calibrate again",
+        "the calibration of '%s' has drifted: the rows of the two images differ by %.1f px and are "
+        "aligned in each pair; measure it with limbcast-calibrate check and calibrate again",
         sensor.c_str(), *drift_px));
   });
   return text;

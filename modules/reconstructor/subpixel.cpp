@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <opencv2/core/fast_math.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -247,11 +248,30 @@ void shift_windows(const cv::Mat1f& left, const cv::Mat1f& right, const Subpixel
   }
 }
 
-cv::Mat1f blurred(const cv::Mat1b& image, double blur_px) {
+cv::Mat1f blurred(const cv::Mat1b& image, double gain, double blur_px) {
   cv::Mat1f result;
-  image.convertTo(result, CV_32F);
+  image.convertTo(result, CV_32F, gain);
   cv::GaussianBlur(result, result, {0, 0}, blur_px);
   return result;
+}
+
+/// How much brighter the left image shows the same surfaces than the right one; 1 where the two
+/// agree but for `most_alike`.
+double brightness_ratio(const cv::Mat1b& left, const cv::Mat1b& right,
+                        const cv::Mat1f& disparity_px, double most_alike) {
+  constexpr int kRowStep = 4;
+  double in_left = 0.0, in_right = 0.0;
+  for (int v = 0; v < left.rows; v += kRowStep) {
+    for (int u = 0; u < left.cols; ++u) {
+      const int matched = u - cvRound(disparity_px(v, u));
+      if (disparity_px(v, u) <= 0.0F || matched < 0) continue;
+      in_left += left(v, u);
+      in_right += right(v, matched);
+    }
+  }
+  if (in_left <= 0.0 || in_right <= 0.0) return 1.0;
+  const double ratio = in_left / in_right;
+  return std::abs(ratio - 1.0) <= most_alike ? 1.0 : ratio;
 }
 
 }  // namespace
@@ -259,7 +279,9 @@ cv::Mat1f blurred(const cv::Mat1b& image, double blur_px) {
 void refine_disparities(const cv::Mat1b& left, const cv::Mat1b& right, const SubpixelParams& params,
                         cv::Mat1f& disparity_px) {
   disparity_px = smooth_surfaces(disparity_px, params.same_surface_px);
-  shift_windows(blurred(left, params.blur_px), blurred(right, params.blur_px), params,
+  const double gain =
+      brightness_ratio(left, right, disparity_px, params.most_brightness_difference);
+  shift_windows(blurred(left, 1.0, params.blur_px), blurred(right, gain, params.blur_px), params,
                 disparity_px);
   disparity_px = smooth_surfaces(disparity_px, params.same_surface_px);  // the shifts are noisy too
 }

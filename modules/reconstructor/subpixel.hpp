@@ -12,6 +12,9 @@ struct SubpixelParams {
   /// Variance of brightness in a window [grey levels^2] at which its own shift and none weigh the
   /// same: that of the images' noise.
   float noise_variance = 0.4F;
+  /// Where one image is brighter by more than this share, as cameras are that expose each for
+  /// itself, the other is made as bright.
+  double most_brightness_difference = 0.05;
 };
 
 /// Finds the fractions of disparities [px, 0 = none] anew: the right image, warped by the smoothed

@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   6800 simulated frames, 3 GB, about half an hour on one core; sets that are there stay
+#   SIMULATED_DIR   8500 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -94,6 +94,19 @@ simulate p_few_nohuman2 nohuman laser 150 892 "${few[@]}"
 simulate p_nohuman6 nohuman stereo 300 893
 simulate p_nohuman7 nohuman stereo 300 894
 simulate p_depth_nohuman3 nohuman depth 150 895 --color
+# Cameras near the floor, above heads, and such that look up, as robots of other sizes have them.
+low=(--min-camera-height-m 0.2 --max-camera-height-m 0.6 --pitch-down-deg -12)
+high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
+up=(--pitch-down-deg -20)
+simulate p_low_general general stereo 120 901 --max-distance-m 4.5 "${low[@]}"
+simulate p_low_pointing pointing stereo 80 902 --max-distance-m 4.5 "${low[@]}"
+simulate p_low_nohuman nohuman stereo 150 903 "${low[@]}"
+simulate p_up_general general stereo 100 904 --max-distance-m 4.5 "${up[@]}"
+simulate p_up_nohuman nohuman stereo 120 905 "${up[@]}"
+simulate p_high_general general stereo 100 906 --max-distance-m 4.5 "${high[@]}"
+simulate p_high_nohuman nohuman stereo 120 907 "${high[@]}"
+simulate p_low_depth general depth 80 908 --color --max-distance-m 4.5 "${low[@]}"
+simulate p_low_depth_nohuman nohuman depth 100 909 --color "${low[@]}"
 
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done

@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "common/median.hpp"
 #include "tests/reconstructor/synthetic_pair.hpp"
 
 namespace limbcast::reconstructor {
@@ -53,6 +54,22 @@ TEST(Match, FindsFractionsWithoutPreferenceForWholeDisparities) {
   // another.
   const double equal_share = static_cast<double>(errors_px.size()) / 8.0;
   for (const int count : histogram) EXPECT_NEAR(count, equal_share, 0.35 * equal_share);
+}
+
+TEST(Match, IsAsExactWhereOneImageIsDarker) {
+  const auto slope = [](int u, int) { return 10.0 + 0.01 * u; };
+  RectifiedPair pair = test::pair_of(slope);
+  const auto median_error_px = [&] {
+    const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+    std::vector<float> errors_px;
+    for (int v = 20; v < 460; ++v)
+      for (int u = 50; u < 550; ++u)
+        errors_px.push_back(std::abs(found(v, u) - static_cast<float>(slope(u, v))));
+    return median(errors_px);
+  };
+  const float alike_px = median_error_px();
+  pair.right *= 0.7;
+  EXPECT_LT(median_error_px(), 1.1F * alike_px);
 }
 
 TEST(Match, KeepsTheOutlineOfASquareBeforeAWall) {
