@@ -11,18 +11,23 @@
 namespace limbcast::reconstructor {
 
 /// A pixel's costs are as many bytes as fill vector registers: the number of disparities is rounded
-/// up to a multiple of this, and what is beyond costs kNoMatch.
+/// up to a multiple of this, and what is beyond costs kNoMatch. Where registers are shorter than
+/// this the compiler makes some vectors byte by byte.
+#if defined(__aarch64__)
+constexpr int kCostsInARegister = 16;
+#else
 constexpr int kCostsInARegister = 32;
+#endif
 
 /// Calls `loop` with the bytes of a pixel's costs; the usual ones as a constant, so that the
 /// compiler unrolls the loops over them.
 template <typename Loop>
 LIMBCAST_INLINE inline void with_size(int num_registers, const Loop& loop) {
-  constexpr int kTwo = 2 * kCostsInARegister, kFour = 4 * kCostsInARegister;
-  if (num_registers * kCostsInARegister == kTwo)
-    loop(std::integral_constant<int, kTwo>());
-  else if (num_registers * kCostsInARegister == kFour)
-    loop(std::integral_constant<int, kFour>());
+  constexpr int kFew = 64, kMany = 128;
+  if (num_registers * kCostsInARegister == kFew)
+    loop(std::integral_constant<int, kFew>());
+  else if (num_registers * kCostsInARegister == kMany)
+    loop(std::integral_constant<int, kMany>());
   else
     loop(num_registers * kCostsInARegister);
 }
