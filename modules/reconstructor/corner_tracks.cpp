@@ -34,13 +34,14 @@ std::vector<CornerTrack> track_corners(const RectifiedPair& pair, const CornerPa
                           params.min_spacing_px);
   if (left.empty()) return {};
   const Tracks there = track(pair.left, pair.right, left, params);
-  const Tracks back = track(pair.right, pair.left, there.to, params);
+  Tracks back = {left, there.found};
+  if (params.max_return_px) back = track(pair.right, pair.left, there.to, params);
   // Nothing stands behind infinity, but for the error of a match.
   constexpr float kBehindInfinity_px = 1.0F;
   std::vector<CornerTrack> tracks;
   for (std::size_t i = 0; i < left.size(); ++i) {
     if (there.found[i] == 0 || back.found[i] == 0) continue;
-    if (cv::norm(back.to[i] - left[i]) > params.max_return_px) continue;
+    if (cv::norm(back.to[i] - left[i]) > params.max_return_px.value_or(0.0)) continue;
     const cv::Point2f step = there.to[i] - left[i];
     if (step.x <= kBehindInfinity_px && std::abs(step.y) <= params.max_difference_px)
       tracks.push_back({left[i], there.to[i]});

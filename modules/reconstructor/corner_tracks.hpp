@@ -1,6 +1,7 @@
 #pragma once
 
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <vector>
 
 #include "modules/reconstructor/rectifier.hpp"
@@ -15,8 +16,9 @@ struct CornerParams {
   double min_quality = 0.02, min_spacing_px = 10.0;
   /// Side of the window that is tracked [px], and how often the images are halved for it.
   int window_px = 21, pyramid_levels = 5;
-  /// A corner that is tracked into the right image and back must come to where it was [px].
-  double max_return_px = 0.3;
+  /// A corner that is tracked into the right image and back must come to where it was [px]; none:
+  /// corners are not tracked back.
+  std::optional<double> max_return_px = 0.3;
   /// Larger row differences are wrong matches [px]: a drift of 2 degrees gives 18 px at 520 px of
   /// focal length.
   double max_difference_px = 24.0;

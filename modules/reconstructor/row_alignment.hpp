@@ -16,9 +16,9 @@ struct CameraTurn {
 
 struct RowAlignmentParams {
   /// Corners are looked for in images of about this width [px], then tracked once more in the
-  /// pair's own.
+  /// pair's own; tracking them back as well tells the turn no better.
   int search_width_px = 320;
-  CornerParams corners = {200, 0.02, 6.0, 15, 4, 0.3, 12.0};
+  CornerParams corners = {200, 0.02, 6.0, 15, 4, std::nullopt, 12.0};
   /// The last tracking moves a corner that was found at this scale by a pixel or so.
   double max_move_px = 1.5;
   /// Fewer corners say nothing.
