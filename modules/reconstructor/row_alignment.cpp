@@ -26,26 +26,32 @@ Eigen::RowVector2d rows_per_radian(double u, double v, const PinholeCamera& came
   return {camera.fy * (1.0 + y * y), camera.fy * x};
 }
 
+struct FittedTurn {
+  CameraTurn turn;
+  double sigma_px = 0.0;  ///< of the rows that it leaves unexplained, robust
+};
+
 /// The turn that most of the row differences agree on: least squares, in which what lies far off
 /// counts less and less (Geman and McClure 1987).
-CameraTurn fit_turn(const Eigen::MatrixX2d& rows_per_radian, const Eigen::VectorXd& rows_px) {
+FittedTurn fit_turn(const Eigen::MatrixX2d& rows_per_radian, const Eigen::VectorXd& rows_px) {
   constexpr int kRounds = 10;
   constexpr double kMadToSigma = 1.4826, kLeastSigma_px = 0.03, kLimitSigmas = 2.0;
   std::vector<double> differences_px(rows_px.begin(), rows_px.end());
   // The median row first: of many wrong matches least squares would never come back.
   Eigen::Vector2d turn{median(differences_px) / rows_per_radian.col(0).mean(), 0.0};
+  double sigma_px = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::ArrayXd left_px = (rows_px - rows_per_radian * turn).array();
     const Eigen::ArrayXd sizes_px = left_px.abs();
     std::copy(sizes_px.begin(), sizes_px.end(), differences_px.begin());
-    const double sigma_px = std::max(kMadToSigma * median(differences_px), kLeastSigma_px);
+    sigma_px = std::max(kMadToSigma * median(differences_px), kLeastSigma_px);
     const Eigen::ArrayXd weights =
         (1.0 + (left_px / (kLimitSigmas * sigma_px)).square()).square().inverse();
     const Eigen::Matrix2Xd weighted =
         (rows_per_radian.array().colwise() * weights).matrix().transpose();
     turn = (weighted * rows_per_radian).ldlt().solve(weighted * rows_px);
   }
-  return {turn[0], turn[1]};
+  return {{turn[0], turn[1]}, sigma_px};
 }
 
 /// The image that the camera would see, were it not turned.
@@ -79,7 +85,9 @@ std::optional<CameraTurn> find_right_turn(const RectifiedPair& pair, const Pinho
     rows.row(row) = rows_per_radian(corners[i].right.x, corners[i].right.y, camera);
     differences_px[row] = corners[i].right.y - corners[i].left.y;
   }
-  return fit_turn(rows, differences_px);
+  const FittedTurn fitted = fit_turn(rows, differences_px);
+  if (fitted.sigma_px > params.max_sigma_px * by) return std::nullopt;
+  return fitted.turn;
 }
 
 double row_shift_px(const CameraTurn& turn, const PinholeCamera& camera) {

@@ -80,6 +80,18 @@ TEST(RowAlignment, LeavesRowsThatMatchAsTheyAre) {
   EXPECT_EQ(with_rows_aligned(pair, kCamera).right.data, pair.right.data);
 }
 
+TEST(RowAlignment, KnowsNothingWhereCornersDisagree) {
+  RectifiedPair pair = pair_of_turned_camera({0.002, 0.0});
+  const cv::Mat before = pair.right.clone();
+  constexpr int kSide = 40;
+  cv::RNG random(3);
+  for (int v = kSide; v + 2 * kSide <= before.rows; v += kSide)
+    for (int u = 0; u + kSide <= before.cols; u += kSide)
+      before(cv::Rect(u, v + random.uniform(-4, 5), kSide, kSide))
+          .copyTo(pair.right(cv::Rect(u, v, kSide, kSide)));
+  EXPECT_FALSE(find_right_turn(pair, kCamera));
+}
+
 TEST(RowAlignment, KnowsNothingOfAPlainWall) {
   const cv::Mat1b wall(480, 640, uchar{128});
   EXPECT_FALSE(find_right_turn({wall, wall}, kCamera));
