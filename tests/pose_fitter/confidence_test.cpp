@@ -240,7 +240,7 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
-  FittedBody fitted = doubtful_person(0.81, 0.85);
+  FittedBody fitted = doubtful_person(0.76, 0.85);
   fitted.observation.noise.quadratic_per_m = 0.002F;
   EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise.quadratic_per_m = 0.0F;
@@ -261,7 +261,7 @@ TEST(PersonConfidence, MayBeLowerInCompany) {
   const auto doubtful = assess(doubtful_person(0.35, 0.5));
   ASSERT_TRUE(doubtful);
   EXPECT_TRUE(doubtful->needs_company);
-  EXPECT_FALSE(assess(doubtful_person(0.05, 0.3)));
+  EXPECT_FALSE(assess(doubtful_person(0.05, 0.35)));
 }
 
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {

@@ -18,12 +18,12 @@ constexpr Real kLeastOtherArmConfidence = 0.98;
 /// An arm less sure than this is where the body's arm is not.
 constexpr Real kLeastArmConfidence = 0.1;
 /// A body less sure than this is no person. Of seeds that the trees were not trained on (850 frames
-/// of one person before cameras and 820 rooms) 815 people and one thing lie over this, seven and
-/// four between 0.7 and this.
-constexpr Real kLeastPersonConfidence = 0.8;
-/// Beside people who are sure (company.hpp): of 190 frames of groups eleven people and two things
-/// lie between this and 0.5, eight and one between 0.2 and this.
-constexpr Real kLeastAccompaniedConfidence = 0.3;
+/// of one person before cameras and 820 rooms) 819 people and two things lie over this, nine and
+/// four between 0.65 and this.
+constexpr Real kLeastPersonConfidence = 0.75;
+/// Beside people who are sure (company.hpp): of 190 frames of groups ten people and one thing lie
+/// between this and 0.5, five and one between 0.2 and this.
+constexpr Real kLeastAccompaniedConfidence = 0.35;
 /// Before a scanner the surface alone speaks: of 330 simulated rooms four got a person at 0.79, one
 /// at this; a real person before 32 rings lies at 0.8, and a thing of a real street at 0.51.
 constexpr Real kLeastScannedPersonConfidence = 0.85;
