@@ -12,7 +12,7 @@
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/quantization.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
-#include "tests/benchmarks/demo_frame.hpp"
+#include "tests/support/demo_frame.hpp"
 
 namespace limbcast {
 namespace {

@@ -17,7 +17,7 @@
 #include "modules/segmenter/pose_network.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "modules/segmenter/skin_color.hpp"
-#include "tests/benchmarks/demo_frame.hpp"
+#include "tests/support/demo_frame.hpp"
 
 namespace limbcast::segmenter {
 namespace {

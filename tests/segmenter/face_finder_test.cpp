@@ -9,9 +9,9 @@
 
 #include "modules/segmenter/segmenter.hpp"
 #include "modules/simulate/render.hpp"
-#include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 #include "tests/segmenter/turned_cloud.hpp"
+#include "tests/support/demo_frame.hpp"
 #include "tests/support/lone_person.hpp"
 
 namespace limbcast::segmenter {

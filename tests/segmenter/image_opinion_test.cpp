@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/benchmarks/demo_frame.hpp"
+#include "tests/support/demo_frame.hpp"
 
 namespace limbcast::segmenter {
 namespace {

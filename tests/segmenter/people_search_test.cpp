@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "modules/segmenter/segmenter.hpp"
-#include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/constant_classifier.hpp"
 #include "tests/segmenter/drawn_scene.hpp"
+#include "tests/support/demo_frame.hpp"
 
 namespace limbcast::segmenter {
 namespace {

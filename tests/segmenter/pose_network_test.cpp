@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "modules/segmenter/segmenter.hpp"
-#include "tests/benchmarks/demo_frame.hpp"
 #include "tests/segmenter/turned_cloud.hpp"
+#include "tests/support/demo_frame.hpp"
 
 namespace limbcast::segmenter {
 namespace {

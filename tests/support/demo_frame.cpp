@@ -1,4 +1,4 @@
-#include "tests/benchmarks/demo_frame.hpp"
+#include "tests/support/demo_frame.hpp"
 
 #include <stdexcept>
 
