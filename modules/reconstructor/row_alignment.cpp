@@ -20,38 +20,41 @@ RectifiedPair shrunk(const RectifiedPair& pair, int by) {
   return small;
 }
 
-/// Rows by which a pixel moves for each radian of nod and of roll.
-Eigen::RowVector2d rows_per_radian(double u, double v, const PinholeCamera& camera) {
+/// Rows by which a pixel moves for each radian of nod and of roll and each pixel of shift.
+Eigen::RowVector3d rows_of(double u, double v, const PinholeCamera& camera) {
   const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
-  return {camera.fy * (1.0 + y * y), camera.fy * x};
+  return {camera.fy * (1.0 + y * y), camera.fy * x, 1.0};
 }
 
-struct FittedTurn {
-  CameraTurn turn;
-  double sigma_px = 0.0;  ///< of the rows that it leaves unexplained, robust
+/// Numbers that most rows agree on.
+struct RowFit {
+  Eigen::Vector2d numbers;
+  double sigma_px = 0.0;  ///< of the rows that they leave unexplained, robust
+  double cost = 0.0;  ///< number of rows left unexplained, those that are nearly explained in part
 };
 
-/// The turn that most of the row differences agree on: least squares, in which what lies far off
-/// counts less and less (Geman and McClure 1987).
-FittedTurn fit_turn(const Eigen::MatrixX2d& rows_per_radian, const Eigen::VectorXd& rows_px) {
+/// Least squares, in which what lies far off counts less and less (Geman and McClure 1987).
+RowFit fit_rows(const Eigen::MatrixX2d& rows, const Eigen::VectorXd& rows_px) {
   constexpr int kRounds = 10;
   constexpr double kMadToSigma = 1.4826, kLeastSigma_px = 0.03, kLimitSigmas = 2.0;
+  constexpr double kUnexplained_px = 0.1;
   std::vector<double> differences_px(rows_px.begin(), rows_px.end());
   // The median row first: of many wrong matches least squares would never come back.
-  Eigen::Vector2d turn{median(differences_px) / rows_per_radian.col(0).mean(), 0.0};
-  double sigma_px = 0.0;
+  RowFit fit{{median(differences_px) / rows.col(0).mean(), 0.0}};
+  Eigen::ArrayXd left_px = (rows_px - rows * fit.numbers).array();
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::ArrayXd left_px = (rows_px - rows_per_radian * turn).array();
     const Eigen::ArrayXd sizes_px = left_px.abs();
     std::copy(sizes_px.begin(), sizes_px.end(), differences_px.begin());
-    sigma_px = std::max(kMadToSigma * median(differences_px), kLeastSigma_px);
+    fit.sigma_px = std::max(kMadToSigma * median(differences_px), kLeastSigma_px);
     const Eigen::ArrayXd weights =
-        (1.0 + (left_px / (kLimitSigmas * sigma_px)).square()).square().inverse();
-    const Eigen::Matrix2Xd weighted =
-        (rows_per_radian.array().colwise() * weights).matrix().transpose();
-    turn = (weighted * rows_per_radian).ldlt().solve(weighted * rows_px);
+        (1.0 + (left_px / (kLimitSigmas * fit.sigma_px)).square()).square().inverse();
+    const Eigen::Matrix2Xd weighted = (rows.array().colwise() * weights).matrix().transpose();
+    fit.numbers = (weighted * rows).ldlt().solve(weighted * rows_px);
+    left_px = (rows_px - rows * fit.numbers).array();
   }
-  return {{turn[0], turn[1]}, sigma_px};
+  const Eigen::ArrayXd squares = (left_px / kUnexplained_px).square();
+  fit.cost = (squares / (1.0 + squares)).sum();
+  return fit;
 }
 
 /// The image that the camera would see, were it not turned.
@@ -62,7 +65,8 @@ cv::Mat turned_back(const cv::Mat& image, const PinholeCamera& camera, const Cam
   const cv::Matx33d roll(roll_cos, -roll_sin, 0, roll_sin, roll_cos, 0, 0, 0, 1);
   const cv::Matx33d pixels(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   // Where the turned camera shows what the straight one would.
-  const cv::Matx33d moved = pixels * (roll * nod) * pixels.inv();
+  const cv::Matx33d shift(1, 0, 0, 0, 1, turn.shift_px, 0, 0, 1);
+  const cv::Matx33d moved = shift * pixels * (roll * nod) * pixels.inv();
   cv::Mat result;
   cv::warpPerspective(image, result, moved, image.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP,
                       cv::BORDER_REPLICATE);
@@ -78,16 +82,24 @@ std::optional<CameraTurn> find_right_turn(const RectifiedPair& pair, const Pinho
       track_again(track_corners(shrunk(pair, by), params.corners), pair, static_cast<float>(by),
                   params.corners.window_px, params.max_move_px);
   if (static_cast<int>(corners.size()) < params.min_corners) return std::nullopt;
-  Eigen::MatrixX2d rows(corners.size(), 2);
+  Eigen::MatrixX3d rows(corners.size(), 3);
   Eigen::VectorXd differences_px(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    rows.row(row) = rows_per_radian(corners[i].right.x, corners[i].right.y, camera);
+    rows.row(row) = rows_of(corners[i].right.x, corners[i].right.y, camera);
     differences_px[row] = corners[i].right.y - corners[i].left.y;
   }
-  const FittedTurn fitted = fit_turn(rows, differences_px);
-  if (fitted.sigma_px > params.max_sigma_px * by) return std::nullopt;
-  return fitted.turn;
+  // A mount that has bent and a lens that has moved look much alike: which it is, corners far above
+  // and below the middle tell. Both at once they hardly do.
+  const RowFit bent = fit_rows(rows(Eigen::all, {0, 1}), differences_px);
+  const RowFit moved = fit_rows(rows(Eigen::all, {2, 1}), differences_px);
+  const bool is_bent = bent.cost <= moved.cost;
+  const RowFit& fit = is_bent ? bent : moved;
+  if (fit.sigma_px > params.max_sigma_px * by) return std::nullopt;
+  CameraTurn turn;
+  (is_bent ? turn.nod_rad : turn.shift_px) = fit.numbers[0];
+  turn.roll_rad = fit.numbers[1];
+  return turn;
 }
 
 double row_shift_px(const CameraTurn& turn, const PinholeCamera& camera) {
@@ -95,9 +107,9 @@ double row_shift_px(const CameraTurn& turn, const PinholeCamera& camera) {
   double squares_px = 0.0;
   for (int i = 0; i < kPlaces; ++i) {
     for (int k = 0; k < kPlaces; ++k) {
-      const double shift_px = rows_per_radian((i + 0.5) / kPlaces * camera.width,
-                                              (k + 0.5) / kPlaces * camera.height, camera) *
-                              Eigen::Vector2d(turn.nod_rad, turn.roll_rad);
+      const double shift_px =
+          rows_of((i + 0.5) / kPlaces * camera.width, (k + 0.5) / kPlaces * camera.height, camera) *
+          Eigen::Vector3d(turn.nod_rad, turn.roll_rad, turn.shift_px);
       squares_px += shift_px * shift_px;
     }
   }

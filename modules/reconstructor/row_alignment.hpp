@@ -7,11 +7,13 @@
 
 namespace limbcast::reconstructor {
 
-/// How a camera is turned against where its calibration has it [rad]; what a mount that bends does.
-/// A turn about the upright axis is not asked for: it moves hardly a row, but all disparities.
+/// How a camera stands against where its calibration has it: a mount that bends turns it, in a lens
+/// that moves the image is shifted. find_right_turn tells of one of nod and shift. A
+/// turn about the upright axis is not asked for: it moves hardly a row, but all disparities.
 struct CameraTurn {
-  double nod_rad = 0.0;   ///< about x: its image moves down
+  double nod_rad = 0.0;   ///< about x: its image moves down, more so above and below the middle
   double roll_rad = 0.0;  ///< about z: its image turns clockwise
+  double shift_px = 0.0;  ///< of the lens: its image moves down
 };
 
 struct RowAlignmentParams {
@@ -27,8 +29,8 @@ struct RowAlignmentParams {
   int min_corners = 40;
   double max_sigma_px = 0.15;
   /// Rows that differ by less are left alone [px, root mean square over the image]: half a pixel
-  /// takes 15 of 100 right arms, a quarter 3, and pairs of stereo_dev whose rows match tell 0.1 at
-  /// most (tests/accuracy/README.md).
+  /// takes 13 of 94 right arms, and pairs of stereo_dev whose rows match tell 0.1 at most
+  /// (tests/accuracy/README.md).
   double min_shift_px = 0.15;
 };
 

@@ -47,26 +47,35 @@ double misfit_px(const RectifiedPair& pair) {
 
 TEST(RowAlignment, TellsHowTheRightCameraIsTurned) {
   const std::optional<CameraTurn> turn =
-      find_right_turn(pair_of_turned_camera({0.004, -0.006}), kCamera);
+      find_right_turn(pair_of_turned_camera({0.004, -0.006, 0.0}), kCamera);
   ASSERT_TRUE(turn);
   EXPECT_NEAR(turn->nod_rad, 0.004, 0.0001);
   EXPECT_NEAR(turn->roll_rad, -0.006, 0.0001);
+  EXPECT_NEAR(turn->shift_px, 0.0, 0.05);
+}
+
+TEST(RowAlignment, PutsRowsBackThatALensHasMoved) {
+  RectifiedPair pair = pair_of_turned_camera({0.0, 0.0, 0.0});
+  cv::warpAffine(pair.right.clone(), pair.right, cv::Matx23d(1, 0, 0, 0, 1, 2.4), pair.right.size(),
+                 cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  ASSERT_GT(misfit_px(pair), 2.0);
+  EXPECT_LT(misfit_px(with_rows_aligned(pair, kCamera)), 0.25);
 }
 
 TEST(RowAlignment, IsNotMovedByWhatMovesBetweenTheImages) {
-  RectifiedPair pair = pair_of_turned_camera({0.002, 0.0});
+  RectifiedPair pair = pair_of_turned_camera({0.002, 0.0, 0.0});
   const cv::Rect person(200, 60, 200, 400);
   const cv::Rect moved = person + cv::Point(0, 5);
   pair.right(person).clone().copyTo(pair.right(moved));
   const std::optional<CameraTurn> turn = find_right_turn(pair, kCamera);
   ASSERT_TRUE(turn);
-  EXPECT_NEAR(turn->nod_rad, 0.002, 0.0001);
-  EXPECT_NEAR(turn->roll_rad, 0.0, 0.0002);
+  const CameraTurn off{turn->nod_rad - 0.002, turn->roll_rad, turn->shift_px};
+  EXPECT_LT(row_shift_px(off, kCamera), 0.1);
 }
 
 TEST(RowAlignment, PutsWhatATurnedCameraSeesWhereItBelongs) {
   for (const CameraTurn& turn :
-       {CameraTurn{0.004, 0.0}, CameraTurn{0.0, 0.01}, CameraTurn{-0.02, 0.01}}) {
+       {CameraTurn{0.004, 0.0, 0.0}, CameraTurn{0.0, 0.01, 0.0}, CameraTurn{-0.02, 0.01, 0.0}}) {
     const RectifiedPair pair = pair_of_turned_camera(turn);
     ASSERT_GT(misfit_px(pair), 1.5);
     const RectifiedPair aligned = with_rows_aligned(pair, kCamera);
@@ -76,12 +85,12 @@ TEST(RowAlignment, PutsWhatATurnedCameraSeesWhereItBelongs) {
 }
 
 TEST(RowAlignment, LeavesRowsThatMatchAsTheyAre) {
-  const RectifiedPair pair = pair_of_turned_camera({0.0001, 0.0001});
+  const RectifiedPair pair = pair_of_turned_camera({0.0001, 0.0001, 0.0});
   EXPECT_EQ(with_rows_aligned(pair, kCamera).right.data, pair.right.data);
 }
 
 TEST(RowAlignment, KnowsNothingWhereCornersDisagree) {
-  RectifiedPair pair = pair_of_turned_camera({0.002, 0.0});
+  RectifiedPair pair = pair_of_turned_camera({0.002, 0.0, 0.0});
   const cv::Mat before = pair.right.clone();
   constexpr int kSide = 40;
   cv::RNG random(3);
