@@ -34,4 +34,12 @@ cv::Mat1b grey_of(const cv::Mat& image) {
   return grey;
 }
 
+cv::Mat1b shrunk(const cv::Mat& image, int by) {
+  const cv::Mat1b grey = grey_of(image);
+  if (by <= 1) return grey;
+  cv::Mat1b small;
+  cv::resize(grey, small, {}, 1.0 / by, 1.0 / by, cv::INTER_AREA);
+  return small;
+}
+
 }  // namespace limbcast::reconstructor

@@ -15,4 +15,7 @@ std::vector<Bgr> colors_of(const cv::Mat& image);
 /// image.
 cv::Mat1b grey_of(const cv::Mat& image);
 
+/// In grey, `by` times as small.
+cv::Mat1b shrunk(const cv::Mat& image, int by);
+
 }  // namespace limbcast::reconstructor

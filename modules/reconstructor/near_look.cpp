@@ -13,12 +13,6 @@
 namespace limbcast::reconstructor {
 namespace {
 
-cv::Mat1b shrunk(const cv::Mat& image, int by) {
-  cv::Mat small;
-  cv::resize(grey_of(image), small, {}, 1.0 / by, 1.0 / by, cv::INTER_AREA);
-  return small;
-}
-
 /// A pair, as small as near surfaces can be seen in it.
 struct SmallPair {
   cv::Mat1b left, right;

@@ -12,14 +12,6 @@
 namespace limbcast::reconstructor {
 namespace {
 
-RectifiedPair shrunk(const RectifiedPair& pair, int by) {
-  if (by <= 1) return pair;
-  RectifiedPair small;
-  cv::resize(pair.left, small.left, {}, 1.0 / by, 1.0 / by, cv::INTER_AREA);
-  cv::resize(pair.right, small.right, {}, 1.0 / by, 1.0 / by, cv::INTER_AREA);
-  return small;
-}
-
 /// Rows by which a pixel moves for each radian of nod and of roll and each pixel of shift.
 Eigen::RowVector3d rows_of(double u, double v, const PinholeCamera& camera) {
   const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
@@ -79,8 +71,8 @@ std::optional<CameraTurn> find_right_turn(const RectifiedPair& pair, const Pinho
                                           const RowAlignmentParams& params) {
   const int by = std::max(1, pair.left.cols / params.search_width_px);
   const std::vector<CornerTrack> corners =
-      track_again(track_corners(shrunk(pair, by), params.corners), pair, static_cast<float>(by),
-                  params.corners.window_px, params.max_move_px);
+      track_again(track_corners({shrunk(pair.left, by), shrunk(pair.right, by)}, params.corners),
+                  pair, static_cast<float>(by), params.corners.window_px, params.max_move_px);
   if (static_cast<int>(corners.size()) < params.min_corners) return std::nullopt;
   Eigen::MatrixX3d rows(corners.size(), 3);
   Eigen::VectorXd differences_px(corners.size());
@@ -120,7 +112,7 @@ RectifiedPair with_rows_aligned(const RectifiedPair& pair, const PinholeCamera& 
                                 const RowAlignmentParams& params) {
   const RectifiedPair grey{grey_of(pair.left), grey_of(pair.right)};
   const std::optional<CameraTurn> turn = find_right_turn(grey, camera, params);
-  if (!turn || row_shift_px(*turn, camera) < params.min_shift_px) return pair;
+  if (!turn || row_shift_px(*turn, camera) < params.min_shift_px) return {pair.left, grey.right};
   return {pair.left, turned_back(grey.right, camera, *turn)};
 }
 

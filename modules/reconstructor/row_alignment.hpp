@@ -8,8 +8,8 @@
 namespace limbcast::reconstructor {
 
 /// How a camera stands against where its calibration has it: a mount that bends turns it, in a lens
-/// that moves the image is shifted. find_right_turn tells of one of nod and shift. A
-/// turn about the upright axis is not asked for: it moves hardly a row, but all disparities.
+/// that moves the image is shifted. find_right_turn tells of one of nod and shift. A turn about the
+/// upright axis is not asked for: it moves hardly a row, but all disparities.
 struct CameraTurn {
   double nod_rad = 0.0;   ///< about x: its image moves down, more so above and below the middle
   double roll_rad = 0.0;  ///< about z: its image turns clockwise
@@ -42,7 +42,7 @@ std::optional<CameraTurn> find_right_turn(const RectifiedPair& pair, const Pinho
 /// By how much a turn moves rows [px, root mean square over the image].
 double row_shift_px(const CameraTurn& turn, const PinholeCamera& camera);
 
-/// A rectified pair, grey or BGR; where its rows do not match, with the right image, in grey,
+/// A rectified pair, grey or BGR, with the right image in grey; where their rows do not match it is
 /// turned to where they do.
 RectifiedPair with_rows_aligned(const RectifiedPair& pair, const PinholeCamera& camera,
                                 const RowAlignmentParams& params = {});
