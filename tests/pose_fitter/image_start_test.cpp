@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 #include "modules/pose_fitter/refined/pose_search.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
@@ -44,6 +45,11 @@ Observation observed(const Segment& segment) {
   return observe(segment, testing::stamp(), RefinedParams{}).value();
 }
 
+/// As the first network sees it.
+std::optional<BodyState> start_of(const Observation& observation, const BodyState& like) {
+  return body_in_image(observation, observation.looks.front(), like);
+}
+
 Real error_m(const BodyState& found, const BodyState& truth, int point) {
   return (found.points[point] - truth.points[point]).norm();
 }
@@ -51,7 +57,7 @@ Real error_m(const BodyState& found, const BodyState& truth, int point) {
 TEST(ImageStart, PutsTheJointsWhereImageAndSurfaceShowThem) {
   const BodyState truth = pointing_body();
 
-  const auto start = body_in_image(observed(seen_as(truth, truth)), testing::standing_body(2.5, 0));
+  const auto start = start_of(observed(seen_as(truth, truth)), testing::standing_body(2.5, 0));
 
   ASSERT_TRUE(start);
   for (int point = 0; point < kPointCount; ++point) EXPECT_LT(error_m(*start, truth, point), 0.15);
@@ -64,7 +70,7 @@ TEST(ImageStart, TakesTheNetworksDepthWhereAnotherLimbCoversAJoint) {
   const Vec3 hand = truth.points[kChest] + Vec3(0.0, 0.0, 0.35);
   truth.points[kWrist] = truth.points[kHand] = hand;
 
-  const auto start = body_in_image(observed(seen_as(truth, truth)), truth);
+  const auto start = start_of(observed(seen_as(truth, truth)), truth);
 
   ASSERT_TRUE(start);
   EXPECT_NEAR(start->points[kWrist].z(), hand.z(), 0.1);
@@ -74,16 +80,16 @@ TEST(ImageStart, IsNoneWhereTheImageShowsNoTrunk) {
   const BodyState body = pointing_body();
   Observation observation = observed(seen_as(body, body));
   observation.looks.front().joints[kHip].visibility = 0.0;
-  EXPECT_FALSE(body_in_image(observation, body));
+  EXPECT_FALSE(start_of(observation, body));
   observation.looks.clear();
-  EXPECT_FALSE(body_in_image(observation, body));
+  EXPECT_TRUE(looks_to_start_from(observation).empty());
 }
 
 TEST(ImageStart, IsNoneWhereTheImageShowsThePersonBesideTheCloud) {
   const BodyState body = pointing_body();
   BodyState beside = body;
   for (Vec3& point : beside.points) point.x() += 1.0;
-  EXPECT_FALSE(body_in_image(observed(seen_as(body, beside)), body));
+  EXPECT_FALSE(start_of(observed(seen_as(body, beside)), body));
 }
 
 TEST(ImageStart, FindsABentBodyThatNoUprightStartReaches) {
@@ -97,6 +103,30 @@ TEST(ImageStart, FindsABentBodyThatNoUprightStartReaches) {
   EXPECT_LT(error_of_neck_m(), 0.05);
   segment.image_poses.clear();
   EXPECT_GT(error_of_neck_m(), 0.1);
+}
+
+TEST(ImageStart, AsksTheSecondNetworkWhereItSeesAnotherBody) {
+  const BodyState body = pointing_body();
+  BodyState nearly = body, elsewhere = body;
+  for (Vec3& point : nearly.points) point.x() += 0.05;
+  for (Vec3& point : elsewhere.points) point.x() += 0.3;
+  Segment segment = testing::colored(testing::seen(body));
+  const auto count_looks = [&](const BodyState& seen_by_first) {
+    segment.image_poses = {testing::in_image(seen_by_first), testing::in_image(body)};
+    return looks_to_start_from(observed(segment)).size();
+  };
+  EXPECT_EQ(count_looks(nearly), 1U);
+  EXPECT_EQ(count_looks(elsewhere), 2U);
+}
+
+TEST(ImageStart, FindsABentBodyThatTheSecondNetworkAloneSees) {
+  const BodyState truth = bent_body(90.0 * kDegree);
+  Segment segment = testing::colored(testing::seen(truth));
+  segment.image_poses = {testing::in_image(testing::standing_body(3.0, 90.0 * kDegree)),
+                         testing::in_image(truth)};
+  const Observation observation = observed(segment);
+  const RefinedParams params;
+  EXPECT_LT(error_m(PoseSearch(observation, params).run().front().body, truth, kNeck), 0.05);
 }
 
 TEST(ImageStart, TellsLeftFromRightByColorsOnly) {

@@ -23,6 +23,10 @@ constexpr Real kJointDepthM = 0.05;
 constexpr Real kSameLimbM = 0.25;
 constexpr Real kLeastTrunkVisibility = 0.1, kLeastAnchorVisibility = 0.3;
 constexpr std::size_t kLeastAnchors = 3;
+/// Half of the joints that two networks mark lie nearer to one another where both see the same body
+/// [m]: of 1690 simulated and recorded people beyond this 28 to 55 of a hundred joints are where
+/// the first marks them, 66 where the second does; below it 84 to 97 of either's.
+constexpr Real kSameBodyM = 0.1;
 
 bool sees_trunk(const SeenJoints& joints) {
   constexpr std::array<int, 4> kTrunkCorners = {kShoulder, kShoulder + 1, kHip, kHip + 1};
@@ -74,12 +78,31 @@ void complete(BodyState& body) {
   set_toes(body);
 }
 
+bool see_different_bodies(const ImageLook& first, const ImageLook& second, Real distance_m) {
+  std::vector<Real> apart_m;
+  for (int joint = kShoulder; joint < kJointCount; ++joint) {
+    const SeenJoint& seen = second.joints[joint];
+    if (seen.visibility < kLeastAnchorVisibility) continue;
+    apart_m.push_back(distance_m * (seen.ray - first.joints[joint].ray).norm());
+  }
+  return apart_m.size() >= kLeastAnchors && median(std::move(apart_m)) > kSameBodyM;
+}
+
 }  // namespace
 
-std::optional<BodyState> body_in_image(const Observation& observation, const BodyState& like) {
-  if (observation.looks.empty()) return std::nullopt;
-  // The second network tells no depths.
-  const SeenJoints& joints = observation.looks.front().joints;
+std::vector<const ImageLook*> looks_to_start_from(const Observation& observation) {
+  std::vector<const ImageLook*> looks;
+  const Real distance_m = observation.head_start.norm();
+  for (const ImageLook& look : observation.looks) {
+    if (looks.empty() || see_different_bodies(*looks.front(), look, distance_m))
+      looks.push_back(&look);
+  }
+  return looks;
+}
+
+std::optional<BodyState> body_in_image(const Observation& observation, const ImageLook& look,
+                                       const BodyState& like) {
+  const SeenJoints& joints = look.joints;
   if (!sees_trunk(joints)) return std::nullopt;
   const Depths by_surface_m = depths_by_surface_m(observation, joints);
   const std::optional<Real> hips_m = depth_of_hips_m(joints, by_surface_m);

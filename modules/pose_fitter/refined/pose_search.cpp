@@ -105,10 +105,13 @@ void PoseSearch::choose_by_front(std::vector<PoseCandidate>& poses) {
 
 std::vector<PoseCandidate> PoseSearch::poses_in_image(const BodyState& like) {
   std::vector<PoseCandidate> poses;
-  const std::optional<BodyState> start = body_in_image(observation_, like);
-  if (!start) return poses;
-  // The network may take left for right.
-  poses = {{0.0, *start}, {0.0, front_back_flipped(*start)}};
+  for (const ImageLook* look : looks_to_start_from(observation_)) {
+    const std::optional<BodyState> start = body_in_image(observation_, *look, like);
+    if (!start) continue;
+    // It may take left for right.
+    poses.push_back({0.0, *start});
+    poses.push_back({0.0, front_back_flipped(*start)});
+  }
   minimize(poses, moves().final_stage(), kImageStartIterations);
   return poses;
 }
