@@ -119,16 +119,6 @@ TEST(ImageStart, AsksTheSecondNetworkWhereItSeesAnotherBody) {
   EXPECT_EQ(count_looks(elsewhere), 2U);
 }
 
-TEST(ImageStart, FindsABentBodyThatTheSecondNetworkAloneSees) {
-  const BodyState truth = bent_body(90.0 * kDegree);
-  Segment segment = testing::colored(testing::seen(truth));
-  segment.image_poses = {testing::in_image(testing::standing_body(3.0, 90.0 * kDegree)),
-                         testing::in_image(truth)};
-  const Observation observation = observed(segment);
-  const RefinedParams params;
-  EXPECT_LT(error_m(PoseSearch(observation, params).run().front().body, truth, kNeck), 0.05);
-}
-
 TEST(ImageStart, TellsLeftFromRightByColorsOnly) {
   const BodyState body = testing::standing_body(2.5, 0.0);
   const Segment segment = seen_as(body, body);
