@@ -82,6 +82,19 @@ ArmPose any_arm(Rng& rng) {
   return arm;
 }
 
+struct Range {
+  double low, high;
+};
+
+/// A stretched arm with an open hand whose angles [degrees] lie in these ranges.
+ArmPose any_stretched_arm(Rng& rng, const BodyShape& body, Range azimuth, Range elevation,
+                          Range bend) {
+  const double bend_deg = rng.uniform(bend.low, bend.high);
+  const double elevation_deg = rng.uniform(elevation.low, elevation.high);
+  const double azimuth_deg = rng.uniform(azimuth.low, azimuth.high);
+  return stretched_arm(rng, body, heading(azimuth_deg, elevation_deg), bend_deg, HandShape::kOpen);
+}
+
 }  // namespace
 
 Vector3d heading(double azimuth_deg, double elevation_deg) {
@@ -109,18 +122,15 @@ ArmPose stretched_arm(Rng& rng, const BodyShape& body, const Vector3d& direction
 
 ArmPose draw_arm(Rng& rng, const BodyShape& body, const std::string& name) {
   if (name == "wave") return bent(rng, {0.85, -0.35, 0.35}, {0.25, 1.0, 0.2}, HandShape::kOpen);
-  if (name == "raise")
-    return stretched_arm(rng, body, heading(rng.uniform(20, 90), rng.uniform(55, 80)),
-                         rng.uniform(5, 40), HandShape::kOpen);
-  if (name == "T")
-    return stretched_arm(rng, body, heading(90 + rng.normal(0, 8), rng.normal(0, 7)),
-                         rng.uniform(0, 8), HandShape::kOpen);
-  if (name == "reachF")
-    return stretched_arm(rng, body, heading(rng.uniform(-10, 40), rng.uniform(-25, 15)),
-                         rng.uniform(5, 50), HandShape::kOpen);
-  if (name == "reachU")
-    return stretched_arm(rng, body, heading(rng.uniform(-10, 50), rng.uniform(25, 60)),
-                         rng.uniform(5, 45), HandShape::kOpen);
+  if (name == "raise") return any_stretched_arm(rng, body, {20, 90}, {55, 80}, {5, 40});
+  if (name == "T") {
+    const double bend = rng.uniform(0, 8);
+    const double elevation = rng.normal(0, 7);
+    const double azimuth = 90 + rng.normal(0, 8);
+    return stretched_arm(rng, body, heading(azimuth, elevation), bend, HandShape::kOpen);
+  }
+  if (name == "reachF") return any_stretched_arm(rng, body, {-10, 40}, {-25, 15}, {5, 50});
+  if (name == "reachU") return any_stretched_arm(rng, body, {-10, 50}, {25, 60}, {5, 45});
   if (name == "any") return any_arm(rng);
   return habitual(rng, body, name);
 }

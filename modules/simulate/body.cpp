@@ -15,8 +15,9 @@ Bgr from_rgb(double r, double g, double b) {
 /// From very light to very dark: the line through the tones of the Fitzpatrick scale.
 Bgr draw_skin(Rng& rng) {
   const double dark = rng.uniform();
-  return from_rgb(235 - 165 * dark + rng.normal(0, 8), 200 - 152 * dark + rng.normal(0, 6),
-                  178 - 148 * dark + rng.normal(0, 6));
+  const double blue = 178 - 148 * dark + rng.normal(0, 6);
+  const double green = 200 - 152 * dark + rng.normal(0, 6);
+  return from_rgb(235 - 165 * dark + rng.normal(0, 8), green, blue);
 }
 
 Bgr draw_cloth(Rng& rng) {

@@ -234,7 +234,8 @@ Scenario draw_scenario(const ScenarioParams& params, const PinholeCamera& camera
   scenario.sensor_height_m = view.height_m;
   scenario.pitch_down_deg = view.pitch_down_rad * 180.0 / kPi<double>;
   Rng sky = rng.derive(10);
-  const Vector3d light(sky.normal(0.0, 0.7), 1.0, -0.6 + sky.normal(0.0, 0.5));
+  const double light_z = -0.6 + sky.normal(0.0, 0.5);
+  const Vector3d light(sky.normal(0.0, 0.7), 1.0, light_z);
   scenario.light = (sensor_from_world.linear() * light.normalized()).cast<float>();
   return scenario;
 }

@@ -55,7 +55,8 @@ Material SceneBuilder::some_material() {
   const auto byte = [&] {
     return static_cast<std::uint8_t>(grey + purity * (rng_.uniform(20, 235) - grey));
   };
-  Material material = even({byte(), byte(), byte()}, static_cast<float>(rng_.uniform(0.0, 0.2)));
+  const auto grain = static_cast<float>(rng_.uniform(0.0, 0.2));
+  Material material = even({byte(), byte(), byte()}, grain);
   material.second = {byte(), byte(), byte()};
   if (rng_.chance(0.3)) material.pattern = static_cast<Pattern>(1 + rng_.pick(3));
   material.scale_m = static_cast<float>(rng_.uniform(0.04, 0.3));
@@ -68,7 +69,8 @@ void SceneBuilder::room(const std::vector<Circle>& keep_free) {
   box({0, -0.05, 10}, {80, 0.1, 80}, 0.0, floor);
   if (rng_.chance(0.25)) {  // a yard
     const double far = rng_.uniform(8, 15);
-    box({0, 3, far + 1.0}, {30, 6, 2}, rng_.normal(0.0, 0.15), some_material());
+    const Material house = some_material();
+    box({0, 3, far + 1.0}, {30, 6, 2}, rng_.normal(0.0, 0.15), house);
     for (int i = rng_.pick(4); i > 0; --i) {
       const double x = rng_.uniform(-5, 5);
       const double z = rng_.uniform(5.5, far);
@@ -98,8 +100,10 @@ void SceneBuilder::room(const std::vector<Circle>& keep_free) {
     Material picture = some_material();
     picture.pattern = Pattern::kPicture;
     picture.scale_m = static_cast<float>(rng_.uniform(0.1, 0.5));
-    box(turn * Vector3d(rng_.uniform(-half, half), rng_.uniform(1.1, 1.8), back - 0.01),
-        {rng_.uniform(0.3, 1.2), rng_.uniform(0.3, 1.2), 0.03}, yaw, picture);
+    const Vector3d size{rng_.uniform(0.3, 1.2), rng_.uniform(0.3, 1.2), 0.03};
+    const double y = rng_.uniform(1.1, 1.8);
+    const double x = rng_.uniform(-half, half);
+    box(turn * Vector3d(x, y, back - 0.01), size, yaw, picture);
   }
 }
 
@@ -125,12 +129,16 @@ void SceneBuilder::furniture(int count, const std::vector<Circle>& keep_free) {
       case 0:
         table(x, z);
         break;
-      case 1:
-        chair(x, z, rng_.uniform(-3.1, 3.1), rng_.uniform(0.40, 0.50), 0.42);
+      case 1: {
+        const double seat_height = rng_.uniform(0.40, 0.50);
+        chair(x, z, rng_.uniform(-3.1, 3.1), seat_height, 0.42);
         break;
-      case 2:
-        sofa(x, z + 0.3, rng_.normal(3.14, 0.6), rng_.uniform(0.38, 0.45));
+      }
+      case 2: {
+        const double seat_height = rng_.uniform(0.38, 0.45);
+        sofa(x, z + 0.3, rng_.normal(3.14, 0.6), seat_height);
         break;
+      }
       case 3:
         shelf(x, z);
         break;
@@ -225,17 +233,22 @@ void SceneBuilder::lamp(double x, double z) {
   round(Solid::Kind::kCylinder, {x, height / 2, z}, {0.015, height / 2, 0.015}, some_material());
   round(Solid::Kind::kCylinder, {x, 0.015, z}, {0.15, 0.015, 0.15}, some_material());
   const double shade = rng_.uniform(0.09, 0.22);
-  round(rng_.chance(0.5) ? Solid::Kind::kCylinder : Solid::Kind::kEllipsoid, {x, height, z},
-        {shade, rng_.uniform(0.1, 0.18), shade}, some_material());
+  const Material material = some_material();
+  const Vector3d half{shade, rng_.uniform(0.1, 0.18), shade};
+  round(rng_.chance(0.5) ? Solid::Kind::kCylinder : Solid::Kind::kEllipsoid, {x, height, z}, half,
+        material);
 }
 
 void SceneBuilder::boxes(double x, double z) {
   double top = 0.0;
   for (int i = 1 + rng_.pick(3); i > 0; --i) {
-    const Vector3d size(rng_.uniform(0.25, 0.6), rng_.uniform(0.2, 0.6), rng_.uniform(0.25, 0.6));
-    box({x + rng_.normal(0, 0.03), top + size.y() / 2, z}, size, rng_.uniform(-1, 1),
-        some_material());
-    top += size.y();
+    const double depth = rng_.uniform(0.25, 0.6);
+    const double height = rng_.uniform(0.2, 0.6);
+    const double width = rng_.uniform(0.25, 0.6);
+    const Material material = some_material();
+    const double yaw = rng_.uniform(-1, 1);
+    box({x + rng_.normal(0, 0.03), top + height / 2, z}, {width, height, depth}, yaw, material);
+    top += height;
   }
 }
 

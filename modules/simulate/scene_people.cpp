@@ -34,8 +34,9 @@ void SceneBuilder::carried(const Skeleton& skeleton) {
   const Vector3d middle =
       0.5 * (skeleton.hand[0] + skeleton.hand[1]) + 0.06 * skeleton.chest_R.col(2);
   const double width = std::max(0.08, std::hypot(span.x(), span.z()) - 0.05);
+  const Material material = some_material();
   box(middle + Vector3d(0, 0.04, 0), {width, rng_.uniform(0.06, 0.35), rng_.uniform(0.12, 0.3)},
-      std::atan2(-span.z(), span.x()), some_material());
+      std::atan2(-span.z(), span.x()), material);
 }
 
 void SceneBuilder::occluder(const Place& place) {
@@ -55,9 +56,11 @@ void SceneBuilder::occluder(const Place& place) {
     case 3:
       boxes(x, z);
       break;
-    default:  // a pillar or a door's edge
+    default: {  // a pillar or a door's edge
+      const Material material = some_material();
       round(Solid::Kind::kCylinder, {x + (rng_.chance(0.5) ? 0.3 : -0.3), 1.3, z},
-            {0.07, 1.3, 0.07}, some_material());
+            {0.07, 1.3, 0.07}, material);
+    }
   }
 }
 
@@ -85,13 +88,15 @@ void SceneBuilder::ball_on_pillar(double x, double z) {
   const double width = rng_.uniform(0.03, 0.25);
   const double radius = rng_.uniform(0.08, 0.17);
   if (rng_.chance(0.5)) {
-    box({x, height / 2, z}, {2 * width, height, rng_.uniform(0.1, 0.4)}, rng_.uniform(-1, 1),
-        some_material());
+    const Material material = some_material();
+    const double yaw = rng_.uniform(-1, 1);
+    box({x, height / 2, z}, {2 * width, height, rng_.uniform(0.1, 0.4)}, yaw, material);
   } else {
     round(Solid::Kind::kCylinder, {x, height / 2, z}, {width, height / 2, width}, some_material());
   }
+  const Material ball = some_material();
   round(Solid::Kind::kEllipsoid, {x, height + 0.9 * radius, z},
-        {radius, radius * rng_.uniform(0.9, 1.4), radius}, some_material());
+        {radius, radius * rng_.uniform(0.9, 1.4), radius}, ball);
 }
 
 void SceneBuilder::coat_stand(double x, double z) {
@@ -131,8 +136,8 @@ void SceneBuilder::box_figure(double x, double z) {
   const Material material = some_material();
   const double hip = rng_.uniform(0.4, 0.9);
   const double trunk = rng_.uniform(0.4, 0.65);
-  box(at + Vector3d(0, hip / 2, 0), {rng_.uniform(0.15, 0.5), hip, 0.3}, yaw,
-      rng_.chance(0.5) ? material : some_material());
+  const Material legs = rng_.chance(0.5) ? material : some_material();
+  box(at + Vector3d(0, hip / 2, 0), {rng_.uniform(0.15, 0.5), hip, 0.3}, yaw, legs);
   box(at + Vector3d(0, hip + trunk / 2, 0),
       {rng_.uniform(0.3, 0.6), trunk, rng_.uniform(0.2, 0.35)}, yaw, material);
   if (rng_.chance(0.5)) {

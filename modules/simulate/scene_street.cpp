@@ -16,8 +16,10 @@ constexpr double kFromM = 1.8, kToM = 12.0, kSlope = 0.8;
 void SceneBuilder::street(const std::vector<Circle>& keep_free) {
   box({0, -0.05, 10}, {80, 0.1, 80}, 0.0, some_material());
   const double far = rng_.uniform(9, 20);
-  box({rng_.normal(0.0, 8.0), 4, far + 4.0}, {rng_.uniform(8, 40), 8, 2}, rng_.normal(0.0, 0.2),
-      some_material());
+  const Material house = some_material();
+  const double yaw = rng_.normal(0.0, 0.2);
+  const double width = rng_.uniform(8, 40);
+  box({rng_.normal(0.0, 8.0), 4, far + 4.0}, {width, 8, 2}, yaw, house);
   for (int i = 5 + rng_.pick(8); i > 0; --i) {
     const double kind = rng_.uniform();
     double x = 0.0;
@@ -54,7 +56,8 @@ void SceneBuilder::trunk(double x, double z) {
   }
   for (int i = rng_.pick(4); i > 0; --i) {
     const double at = rng_.chance(0.4) ? rng_.uniform(0.8, height) : height;
-    foliage({x + rng_.normal(0, 0.3), at, z + rng_.normal(0, 0.3)}, rng_.uniform(0.2, 0.7));
+    const double spread = rng_.uniform(0.2, 0.7);
+    foliage({x + rng_.normal(0, 0.3), at, z + rng_.normal(0, 0.3)}, spread);
   }
 }
 
@@ -62,7 +65,9 @@ void SceneBuilder::foliage(const Vector3d& center, double spread_m) {
   const Material leaves = some_material();
   for (int i = 10 + rng_.pick(30); i > 0; --i) {
     const double radius = rng_.uniform(0.02, 0.12);
-    const Vector3d offset(rng_.normal(), rng_.normal(), rng_.normal());
+    const double z = rng_.normal();
+    const double y = rng_.normal();
+    const Vector3d offset(rng_.normal(), y, z);
     round(Solid::Kind::kEllipsoid, center + 0.6 * spread_m * offset, {radius, 0.7 * radius, radius},
           leaves);
   }
@@ -74,20 +79,24 @@ void SceneBuilder::pole(double x, double z) {
   round(Solid::Kind::kCylinder, {x, height / 2, z}, {radius, height / 2, radius}, some_material());
   if (rng_.chance(0.5)) {  // a sign, or the box of a lamp
     const double at = rng_.uniform(0.7, std::min(2.4, height));
+    const Material material = some_material();
+    const double yaw = rng_.uniform(-1.6, 1.6);
     box({x, at, z}, {rng_.uniform(0.15, 0.7), rng_.uniform(0.15, 0.7), rng_.uniform(0.03, 0.3)},
-        rng_.uniform(-1.6, 1.6), some_material());
+        yaw, material);
   }
 }
 
 void SceneBuilder::bush(double x, double z) {
   for (int i = 1 + rng_.pick(5); i > 0; --i) {
-    const Vector3d at(x + rng_.normal(0, 0.2), rng_.uniform(0.1, 1.5), z + rng_.normal(0, 0.2));
+    const double at_z = z + rng_.normal(0, 0.2);
+    const double at_y = rng_.uniform(0.1, 1.5);
+    const Vector3d at(x + rng_.normal(0, 0.2), at_y, at_z);
     const double radius = rng_.uniform(0.1, 0.4);
     if (rng_.chance(0.5)) {
       foliage(at, radius);
     } else {
-      round(Solid::Kind::kEllipsoid, at, {radius, rng_.uniform(0.7, 1.3) * radius, radius},
-            some_material());
+      const Material leaves = some_material();
+      round(Solid::Kind::kEllipsoid, at, {radius, rng_.uniform(0.7, 1.3) * radius, radius}, leaves);
     }
   }
 }

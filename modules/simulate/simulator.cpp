@@ -12,7 +12,10 @@ enum Draw : std::uint64_t { kSensorDraw = 101, kNoiseDraw, kLeftDraw, kRightDraw
 
 Eigen::Vector3d told_down(const Eigen::Vector3d& down, double sigma_deg, Rng rng) {
   const double sigma = sigma_deg * 3.14159265358979 / 180.0;
-  return (down + sigma * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal())).normalized();
+  const double z = rng.normal();
+  const double y = rng.normal();
+  const double x = rng.normal();
+  return (down + sigma * Eigen::Vector3d(x, y, z)).normalized();
 }
 
 void simulate_camera(const SimulatorParams& params, Rng& rng, SimulatedFrame& frame) {
