@@ -24,11 +24,8 @@ HeadClassifier::HeadClassifier(Network patch, Network person)
 
 std::vector<float> patch_input(const Lattice& lattice, const HeadCandidate& candidate,
                                bool mirrored) {
-  PatchPlace place;
-  place.mirrored = mirrored;
-  place.u = static_cast<float>(candidate.u);
-  place.v = static_cast<float>(candidate.v);
-  place.depth_m = lattice.depth_m[lattice.index(candidate.u, candidate.v)];
+  const auto at = static_cast<std::uint32_t>(lattice.index(candidate.u, candidate.v));
+  PatchPlace place = place_of_point(lattice, at, mirrored);
   place.height_m = candidate.surface_m.z();
   return sample_patch(lattice, place);
 }

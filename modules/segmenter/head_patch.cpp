@@ -22,6 +22,7 @@ PatchPlace place_of_point(const Lattice& lattice, std::uint32_t i, bool mirrored
   place.u = static_cast<float>(u);
   place.v = static_cast<float>(v);
   place.depth_m = lattice.depth_m[i];
+  place.away_m = lattice.away_m(i);
   place.mirrored = mirrored;
   return place;
 }
@@ -42,9 +43,11 @@ float* write_grid(const Lattice& lattice, const PatchPlace& place, const PatchGr
       const int v = static_cast<int>(std::floor(at.y()));
       if (lattice.wraps_around) u = (u % lattice.width + lattice.width) % lattice.width;
       const bool inside = u >= 0 && v >= 0 && u < lattice.width && v < lattice.height;
-      const float depth_m = inside ? lattice.depth_m[lattice.index(u, v)] : 0.0F;
-      const bool measured = depth_m > 0.0F;
-      const float relative = (depth_m - place.depth_m) / grid.depth_scale_m;
+      const std::size_t i = inside ? lattice.index(u, v) : 0;
+      const bool measured = inside && lattice.depth_m[i] > 0.0F;
+      const float farther_m =
+          grid.level ? lattice.away_m(i) - place.away_m : lattice.depth_m[i] - place.depth_m;
+      const float relative = farther_m / grid.depth_scale_m;
       *values++ = measured ? std::clamp(relative, -1.0F, 1.0F) : 0.0F;
       *values++ = measured ? 1.0F : inside ? 0.0F : -1.0F;
     }

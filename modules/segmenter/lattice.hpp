@@ -51,6 +51,9 @@ struct Lattice {
            static_cast<std::size_t>(u);
   }
   std::size_t size() const { return depth_m.size(); }
+  /// Level distance of a measured point, of a camera along its level optical axis: as depth_m, but
+  /// however the camera is pitched, what stands upright is as far away at its foot as at its head.
+  float away_m(std::size_t i) const { return wraps_around ? depth_m[i] : level_m[i].y(); }
   /// Index of the point there; nothing at a hole and outside.
   std::optional<std::uint32_t> find(int u, int v) const {
     if (wraps_around) u = (u + width) % width;

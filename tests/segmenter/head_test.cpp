@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
+#include "common/units.hpp"
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/head_patch.hpp"
 #include "modules/segmenter/head_shape.hpp"
@@ -107,7 +109,7 @@ PatchPlace place_at(float u, float v, float depth_m) {
   PatchPlace place;
   place.u = u;
   place.v = v;
-  place.depth_m = depth_m;
+  place.depth_m = place.away_m = depth_m;
   return place;
 }
 
@@ -127,6 +129,32 @@ TEST(HeadPatch, TellsHolesFromWhatLiesOutsideTheImage) {
   const int middle = kPatchGrids[0].columns / 2, row = kPatchGrids[0].rows / 2;
   EXPECT_EQ(fine_sample(patch, middle, row), std::make_pair(0.0F, 0.0F));
   EXPECT_EQ(fine_sample(patch, 0, row), std::make_pair(0.0F, -1.0F));
+}
+
+/// What a camera that is pitched up sees of an upright wall.
+Lattice wall_from_below(float up_rad, float away_m) {
+  Lattice lattice = Picture().lattice();
+  const Eigen::Matrix3f level_from_level_camera = lattice.frame.level_from_sensor;
+  lattice.frame.level_from_sensor =
+      Eigen::AngleAxisf(up_rad, Eigen::Vector3f::UnitX()) * level_from_level_camera;
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    const Eigen::Vector3f ray =
+        level_from_level_camera.transpose() * lattice.level_m[i] / lattice.depth_m[i];
+    lattice.depth_m[i] = away_m / lattice.frame.to_level(ray).y();
+    lattice.level_m[i] = lattice.frame.to_level(lattice.depth_m[i] * ray);
+  }
+  return lattice;
+}
+
+TEST(HeadPatch, TellsAnUprightWallAsFlatHoweverTheCameraIsPitched) {
+  const Lattice lattice = wall_from_below(radians(20.0F), 2.0F);
+  const auto middle = static_cast<std::uint32_t>(lattice.index(160, 120));
+  const std::vector<float> patch = sample_patch(lattice, place_of_point(lattice, middle, false));
+  for (int row = 0; row < kPatchGrids[0].rows; ++row) {
+    const auto [farther, measured] = fine_sample(patch, kPatchGrids[0].columns / 2, row);
+    EXPECT_EQ(measured, 1.0F);
+    EXPECT_NEAR(farther, 0.0F, 1e-4F);
+  }
 }
 
 TEST(HeadPatch, SwapsTheSidesOfAMirroredPlace) {

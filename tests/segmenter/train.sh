@@ -4,7 +4,7 @@
 # surface_network.inc.
 # Build again afterwards.
 # Usage: tests/segmenter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   2220 simulated frames, 1.4 GB, about half an hour on two cores; sets that are there stay
+#   SIMULATED_DIR   3260 simulated frames, 2 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev, laser_dev and rgbd_pointing
 #   BIN_DIR         default: build/release/bin
 # Run it after the matcher, the lattice, the template or the growing changed.
@@ -35,6 +35,23 @@ simulate d_multi2 multi depth 80 206 --color --max-distance-m 3.5
 simulate d_general general depth 60 107 --color
 simulate d_nohuman nohuman depth 60 109 --color
 simulate d_nohuman2 nohuman depth 80 207 --color
+# Cameras near the floor, above heads, and such that look up, as robots of other sizes have them, and at a desk.
+low=(--min-camera-height-m 0.2 --max-camera-height-m 0.6 --pitch-down-deg -12)
+high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
+up=(--pitch-down-deg -20)
+desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
+simulate s_low_general general stereo 120 221 --max-distance-m 4.5 "${low[@]}"
+simulate s_low_pointing pointing stereo 80 222 --max-distance-m 4.5 "${low[@]}"
+simulate s_low_nohuman nohuman stereo 100 223 "${low[@]}"
+simulate s_up_general general stereo 120 224 --max-distance-m 4.5 "${up[@]}"
+simulate s_up_pointing pointing stereo 80 225 --max-distance-m 4.5 "${up[@]}"
+simulate s_up_nohuman nohuman stereo 100 226 "${up[@]}"
+simulate s_high_general general stereo 80 227 --max-distance-m 4.5 "${high[@]}"
+simulate s_high_nohuman nohuman stereo 60 228 "${high[@]}"
+simulate s_near_general general stereo 100 231 "${desk[@]}"
+simulate s_near_nohuman nohuman stereo 80 232 "${desk[@]}"
+simulate d_low_general general depth 60 229 --color --max-distance-m 4.5 "${low[@]}"
+simulate d_up_nohuman nohuman depth 60 230 --color "${up[@]}"
 simulate l_multi multi laser 60 106 --child-share 0.15
 simulate l_multi2 multi laser 80 209
 simulate l_general general laser 60 108

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "modules/segmenter/cluster_figures.hpp"
@@ -31,6 +33,8 @@ constexpr float kSameHead_m = 0.10F, kOtherPlace_m = 0.15F;
 constexpr float kOtherPerson_m = 0.24F;
 /// Patches taken of each head and of each other place, all but the first varied.
 constexpr int kHeadPatches = 5, kOtherPatches = 2;
+/// Share of the varied ones that are shown as without ground.
+constexpr float kUnknownGround = 0.25F;
 
 using Random = std::mt19937;
 
@@ -141,22 +145,29 @@ void corrupt(std::vector<float>& patch, Random& random) {
   }
 }
 
+/// As where no ground is in sight.
+void forget_ground(std::vector<float>& patch) {
+  patch[kPatchHeight] = patch[kPatchHeight + 1] = 0.0F;
+}
+
 /// Patches of one candidate; all but the first shifted, scaled, mirrored and corrupted.
 void add_patches(const Lattice& lattice, const HeadCandidate& candidate, bool positive,
                  Random& random, std::vector<Example>& examples) {
-  const float depth_m = lattice.depth_m[lattice.index(candidate.u, candidate.v)];
+  const auto at = static_cast<std::uint32_t>(lattice.index(candidate.u, candidate.v));
   for (int i = 0; i < (positive ? kHeadPatches : kOtherPatches); ++i) {
     const float varied = i == 0 ? 0.0F : 1.0F;
-    const float spread_px = varied * 0.025F * lattice.focal_px / depth_m;
-    PatchPlace place;
-    place.u = static_cast<float>(candidate.u) + spread_px * normal(random);
-    place.v = static_cast<float>(candidate.v) + spread_px * normal(random);
-    place.depth_m = depth_m + varied * 0.02F * normal(random);
+    const float spread_px = varied * 0.025F * lattice.focal_px / lattice.depth_m[at];
+    PatchPlace place = place_of_point(lattice, at, i % 2 == 1);
+    place.u += spread_px * normal(random);
+    place.v += spread_px * normal(random);
+    const float farther_m = varied * 0.02F * normal(random);
+    place.depth_m += farther_m;
+    place.away_m += farther_m;
     place.height_m = candidate.surface_m.z() + varied * 0.05F * normal(random);
     place.scale = 1.0F + varied * 0.06F * normal(random);
-    place.mirrored = i % 2 == 1;
     examples.push_back({sample_patch(lattice, place), positive});
     if (i > 0) corrupt(examples.back().input, random);
+    if (i > 0 && uniform(random) < kUnknownGround) forget_ground(examples.back().input);
   }
 }
 
@@ -227,9 +238,10 @@ std::vector<TrainingScene> load_scenes(const std::vector<std::string>& folders,
   return scenes;
 }
 
-std::vector<Example> joined(const std::vector<Example>& a, const std::vector<Example>& b) {
-  std::vector<Example> all = a;
-  all.insert(all.end(), b.begin(), b.end());
+/// Gigabytes: moved, not copied.
+std::vector<Example> joined(std::vector<Example>&& a, std::vector<Example>&& b) {
+  std::vector<Example> all = std::move(a);
+  all.insert(all.end(), std::make_move_iterator(b.begin()), std::make_move_iterator(b.end()));
   return all;
 }
 
@@ -249,7 +261,9 @@ int main(int argc, char** argv) {
     add_patch_examples(scene, random, folds[scene.fold].patches);
   // The second network must see the first one's odds as they are on frames that it was not trained
   // on.
-  const TrainingParams patch_params;
+  TrainingParams patch_params;
+  patch_params.hidden = 80;
+  patch_params.epochs = 20;
   const Network unused{};
   const Network first_patch = train(folds[0].patches, patch_params);
   const HeadClassifier first(first_patch, unused);
@@ -264,9 +278,12 @@ int main(int argc, char** argv) {
   person_params.decay = 1e-3F;
   report("persons, fold 1 on fold 2", train(folds[0].persons, person_params), folds[1].persons);
   const std::string out = argv[1];
-  const Network patch = train(joined(folds[0].patches, folds[1].patches), patch_params);
-  const Network person = train(joined(folds[0].persons, folds[1].persons), person_params);
-  report("persons, all", person, joined(folds[0].persons, folds[1].persons));
+  const Network patch =
+      train(joined(std::move(folds[0].patches), std::move(folds[1].patches)), patch_params);
+  const std::vector<Example> persons =
+      joined(std::move(folds[0].persons), std::move(folds[1].persons));
+  const Network person = train(persons, person_params);
+  report("persons, all", person, persons);
   write_networks({{"kPatchNetwork", patch}, {"kPersonNetwork", person}}, out);
   return 0;
 }
