@@ -33,7 +33,7 @@ class Trial {
     float best_gain = -params_->classifier.rival_odds;
     for (const auto& [head, other] : rivals()) {
       const std::vector<Verdict> before = verdicts_;
-      const float value_before = value(head) + value(other);
+      const float value_before = value(head) + value_as_head(other);
       const float taken = give(other, head);
       const float gain = value(head) - value_before;
       growth_.undo_drop();
@@ -135,6 +135,12 @@ class Trial {
   /// How likely a head is a person's, beyond an even chance; zero for one that will be given up.
   float value(std::size_t k) const {
     return verdicts_[k].rejection ? 0.0F : std::max(0.0F, verdicts_[k].odds);
+  }
+
+  /// The same of a seed on a body that may be another's: whatever grew from it, it is no likelier a
+  /// person than it is a head.
+  float value_as_head(std::size_t k) const {
+    return std::min(value(k), std::max(0.0F, growth_.heads()[k].odds));
   }
 
   /// Drops `from` and returns the share of its points that `to` took over.

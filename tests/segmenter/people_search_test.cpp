@@ -71,6 +71,29 @@ TEST_F(UnsureHeads, AreAskedTheImageForOnceAPerson) {
   EXPECT_EQ(heads.size(), 1U);
 }
 
+/// How many people one body is with a sure head and another seed below it, with these log odds of
+/// being a head, each of whose clusters looks like a person.
+std::size_t people_with_seed_below_head(float odds) {
+  constexpr float kSure = 3.0F;
+  const Lattice lattice = look_at([](float right_m, float up_m) {
+    return std::abs(right_m) < 0.2F && up_m < 0.9F ? kBody_m : 0.0F;
+  });
+  HeadCandidate head = head_at(lattice, 0.0F, 0.8F), below = head_at(lattice, 0.0F, 0.4F);
+  // The odds of such seeds are their own.
+  head.kind = below.kind = SeedKind::kBody;
+  head.odds = kSure + 0.1F;
+  below.odds = odds;
+  const BodyClassifier all_bodies(constant_network(kSure, kPointInputSize));
+  return find_people(lattice, {head, below}, constant_classifier(kSure), all_bodies, {})
+      .heads.size();
+}
+
+TEST(Rivals, AreNoLikelierPeopleThanTheyAreHeads) {
+  const ClassifierParams params;
+  EXPECT_EQ(people_with_seed_below_head(params.sure_head_odds + 0.1F), 1U);
+  EXPECT_EQ(people_with_seed_below_head(params.rival_odds + 1.0F), 2U);
+}
+
 /// The person of the demo log's first frame, whose head is sought in the image however sure it is.
 class DemoPerson : public ::testing::Test {
  protected:
