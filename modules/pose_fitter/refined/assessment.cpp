@@ -18,8 +18,8 @@ constexpr Real kLeastOtherArmConfidence = 0.98;
 /// An arm less sure than this is where the body's arm is not.
 constexpr Real kLeastArmConfidence = 0.1;
 /// A body less sure than this is no person. Of 1883 people in 30 sets, most of them of seeds that
-/// the trees were not trained on, and 740 rooms 1731 people and six things are told, four people and
-/// one thing more from 0.65 on.
+/// the trees were not trained on, and 732 rooms 1731 people and six things are told, four people
+/// and one thing more from 0.65 on.
 constexpr Real kLeastPersonConfidence = 0.75;
 /// Beside people who are sure (company.hpp): of 190 frames of groups ten people and one thing lie
 /// between this and 0.5, five and one between 0.2 and this.
