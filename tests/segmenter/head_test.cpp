@@ -59,8 +59,8 @@ class Picture {
 
  private:
   static Eigen::Vector3f ray(int u, int v) {
-    return {(static_cast<float>(u - kViewWidth / 2) + 0.5F) / kViewFocal_px,
-            (static_cast<float>(v - kViewHeight / 2) + 0.5F) / kViewFocal_px, 1.0F};
+    return {(static_cast<float>(u) + 0.5F - 0.5F * kViewWidth) / kViewFocal_px,
+            (static_cast<float>(v) + 0.5F - 0.5F * kViewHeight) / kViewFocal_px, 1.0F};
   }
   template <class Draw>
   void for_each_pixel(const Draw& draw) {
@@ -99,10 +99,10 @@ TEST(HeadShape, RefusesAHeadWhereTheSensorsNoiseIsLargerThanItsRelief) {
   EXPECT_FALSE(finds_head_at(Picture().draw_person(0.0F, 4.0F).lattice(rough), 0.0F, 4.0F));
 }
 
-/// Values of a patch's first grid at a column and a row: depth, and whether it was measured.
+/// Values of a patch's first grid at a column and a row: distance, and whether it was measured.
 std::pair<float, float> fine_sample(const std::vector<float>& patch, int column, int row) {
-  const auto i = static_cast<std::size_t>(2 * (row * kPatchGrids[0].columns + column));
-  return {patch[i], patch[i + 1]};
+  const float* sample = patch.data() + 2 * (row * kPatchGrids[0].columns + column);
+  return {sample[0], sample[1]};
 }
 
 PatchPlace place_at(float u, float v, float depth_m) {
