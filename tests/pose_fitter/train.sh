@@ -13,7 +13,6 @@ simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}")
 source tests/support/simulated_sets.sh
 
 # Directions come from people who point, also farther off than any recording, and at a desk.
-desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
 simulate c_pointing pointing stereo 160 701 --max-distance-m 5.2 --child-share 0.1
 simulate c_pointing2 pointing stereo 160 707 --max-distance-m 4.5
 simulate c_general general stereo 80 703 --child-share 0.1
@@ -76,7 +75,7 @@ simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9
 simulate p_laser_nohuman4 nohuman laser 200 871
 simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"
 simulate p_nohuman5 nohuman stereo 200 873
-# At a desk, where legs are out of sight.
+# At a desk.
 simulate p_near_general general stereo 160 881 "${desk[@]}"
 simulate p_near_nohuman nohuman stereo 150 882 "${desk[@]}"
 simulate p_near_depth general depth 80 883 --color "${desk[@]}"
@@ -94,10 +93,7 @@ simulate p_few_nohuman2 nohuman laser 150 892 "${few[@]}"
 simulate p_nohuman6 nohuman stereo 300 893
 simulate p_nohuman7 nohuman stereo 300 894
 simulate p_depth_nohuman3 nohuman depth 150 895 --color
-# Cameras near the floor, above heads, and such that look up, as robots of other sizes have them.
-low=(--min-camera-height-m 0.2 --max-camera-height-m 0.6 --pitch-down-deg -12)
-high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
-up=(--pitch-down-deg -20)
+# Cameras in other places.
 simulate p_low_general general stereo 120 901 --max-distance-m 4.5 "${low[@]}"
 simulate p_low_pointing pointing stereo 80 902 --max-distance-m 4.5 "${low[@]}"
 simulate p_low_nohuman nohuman stereo 150 903 "${low[@]}"

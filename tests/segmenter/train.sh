@@ -35,11 +35,7 @@ simulate d_multi2 multi depth 80 206 --color --max-distance-m 3.5
 simulate d_general general depth 60 107 --color
 simulate d_nohuman nohuman depth 60 109 --color
 simulate d_nohuman2 nohuman depth 80 207 --color
-# Cameras near the floor, above heads, and such that look up, as robots of other sizes have them, and at a desk.
-low=(--min-camera-height-m 0.2 --max-camera-height-m 0.6 --pitch-down-deg -12)
-high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
-up=(--pitch-down-deg -20)
-desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
+# Cameras in other places.
 simulate s_low_general general stereo 120 221 --max-distance-m 4.5 "${low[@]}"
 simulate s_low_pointing pointing stereo 80 222 --max-distance-m 4.5 "${low[@]}"
 simulate s_low_nohuman nohuman stereo 100 223 "${low[@]}"

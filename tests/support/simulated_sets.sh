@@ -3,6 +3,13 @@
 # there already stay as they are.
 folders=()
 
+# Cameras near the floor, above heads, and such that look up, as robots of other sizes have them, and at a desk, where
+# legs are out of sight.
+low=(--min-camera-height-m 0.2 --max-camera-height-m 0.6 --pitch-down-deg -12)
+high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
+up=(--pitch-down-deg -20)
+desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
+
 simulate() {
   local folder=$simulated/$1
   folders+=("$folder")
