@@ -60,22 +60,29 @@ struct FaceEvidence {
   float looks_right_log_odds = 0.0F;
 };
 
+/// The networks that see people's joints, in the order in which a segment holds what they see.
+enum class ImageNetwork : std::int8_t {
+  kBlazePose,  ///< in the colour image
+  kMoveNet,    ///< in the colour image
+  kDepthPose,  ///< limbcast's own, in the depths
+};
+inline constexpr int kImageNetworkCount = 3;
+
 /// One joint of a person as a network sees it.
 struct ImageJoint {
   Joint joint = Joint::kHead;
   Eigen::Vector2f px =
       Eigen::Vector2f::Zero();  ///< in the cloud's lattice (a list: in `range_image`), or beyond
   float visibility = 0.0F;      ///< 0 to 1, how sure the joint is in sight and there
-  /// How much farther along the optical axis than the hips' middle; rough: of one wrist
-  /// in eight the sign is wrong. 0 of MoveNet, which tells none.
+  /// How much farther along the optical axis than the hips' middle; rough of BlazePose: of one
+  /// wrist in eight the sign is wrong. 0 of MoveNet, which tells none.
   float behind_hips_m = 0.0F;
 };
 
-/// A person as a network for poses sees it in the colour image, or without colours in a picture of
-/// the surface, whose left and right are a guess.
+/// A person as a network for poses sees it.
 struct ImagePose {
   float person_score = 0.0F;       ///< 0 to 1, how sure the network is that somebody is there
-  std::vector<ImageJoint> joints;  ///< those that the network knows, each once
+  std::vector<ImageJoint> joints;  ///< those that the network knows, each once; none: no look
 };
 
 /// One person candidate: a cluster of points grown from a seed.
@@ -85,7 +92,7 @@ struct Segment {
   SeedKind seed_kind = SeedKind::kSkin;
   float seed_score = 0.0F;  ///< 0 to 1, how sure the seed is a head (kBody: of a person)
   FaceEvidence face;
-  /// As BlazePose sees the person and, second, MoveNet; empty where nobody looked.
+  /// As each ImageNetwork sees the person; ends with the last one that looked.
   std::vector<ImagePose> image_poses;
   SegmentFilter rejected_by = SegmentFilter::kNone;
   float filter_figure = 0.0F;             ///< what the rejecting filter measured

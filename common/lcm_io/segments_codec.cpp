@@ -17,7 +17,7 @@ namespace {
 constexpr int kMaxWindowSide = 8192;
 /// A joint of somebody close by may lie far beyond the image's edge; nothing lies farther [px].
 constexpr float kFarthestJoint_px = 1e6F;
-constexpr std::size_t kMostImagePoses = 2;
+constexpr std::size_t kMostImagePoses = kImageNetworkCount;
 constexpr std::int32_t kMaxSegmentPoints = 8'000'000;
 constexpr std::uint8_t kLabelMask = 0x03;
 constexpr std::uint8_t kSkinBit = 0x04;

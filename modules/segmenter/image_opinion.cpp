@@ -82,17 +82,11 @@ std::optional<Eigen::Vector3f> ImageOpinion::head_of_body(const Scene& scene,
   return marked_m;
 }
 
-std::vector<ImagePose> ImageOpinion::see(const Scene& scene, const LabelledPerson& person,
-                                         const RangeImage& view) const {
-  // Without colours the second takes the stripes of few rings for limbs.
-  const bool both = has_image(scene.cloud);
+std::vector<ImagePose> ImageOpinion::see(const Scene& scene, const LabelledPerson& person) const {
+  const Eigen::Vector3f down = scene.lattice.frame.down();
   std::optional<ImagePose> first, second;
-  tbb::parallel_invoke([&] { first = look(scene, person, view); },
-                       [&] {
-                         if (both)
-                           second = second_network_.look(scene.cloud, person,
-                                                         scene.lattice.frame.down());
-                       });
+  tbb::parallel_invoke([&] { first = network_.look(scene.cloud, person, down); },
+                       [&] { second = second_network_.look(scene.cloud, person, down); });
   std::vector<ImagePose> poses;
   if (first) poses.push_back(std::move(*first));
   // Alone the second would be taken for the first.

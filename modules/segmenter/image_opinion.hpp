@@ -31,10 +31,8 @@ class ImageOpinion {
   /// is not taken for a person, or the mark is far from its top.
   std::optional<Eigen::Vector3f> head_of_body(const Scene& scene,
                                               const HeadlessSurface& body) const;
-  /// What the networks see of a person: in the colours, or where there are none in the surface,
-  /// then in the pixels of `view`.
-  std::vector<ImagePose> see(const Scene& scene, const LabelledPerson& person,
-                             const RangeImage& view) const;
+  /// What the networks see of a person in the colour image; nothing without one.
+  std::vector<ImagePose> see(const Scene& scene, const LabelledPerson& person) const;
 
  private:
   std::optional<float> head_odds(const Scene& scene, const HeadCandidate& head) const;

@@ -86,4 +86,19 @@ inline const PoseNetworkParams kSecondPoseNetwork = [] {
   return params;
 }();
 
+/// What the network of depths sees (depth_pose.hpp); it was trained with these.
+struct DepthPictureParams {
+  /// Middle of the picture, below the head's centre [m], and its side [m]: room for raised arms.
+  float middle_below_head_m = 0.7F;
+  float side_m = 2.3F;
+  /// What one unit of the picture's depths is [m], and the most units: as far as an arm reaches.
+  float unit_m = 0.5F, most_units = 2.0F;
+};
+
+struct DepthPoseParams {
+  bool enabled = true;
+  NetworkLibrary library = network_libraries().front();  ///< that computes it
+  DepthPictureParams picture;
+};
+
 }  // namespace limbcast::segmenter

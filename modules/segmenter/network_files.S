@@ -1,4 +1,4 @@
-// The networks' files, by the labels that blaze_face.cpp, blaze_pose.cpp and move_net.cpp know.
+// The networks' files, by the labels that blaze_face.cpp, blaze_pose.cpp, depth_pose.cpp and move_net.cpp know.
     .section .rodata
     .global limbcast_blaze_face
     .balign 16
@@ -8,6 +8,10 @@ limbcast_blaze_face:
     .balign 16
 limbcast_blaze_pose:
     .incbin LIMBCAST_BLAZE_POSE
+    .global limbcast_depth_pose
+    .balign 16
+limbcast_depth_pose:
+    .incbin LIMBCAST_DEPTH_POSE
     .global limbcast_move_net
     .balign 16
 limbcast_move_net:

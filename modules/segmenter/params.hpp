@@ -265,6 +265,7 @@ struct Params {
   FaceParams faces;
   PoseNetworkParams pose_network;
   PoseNetworkParams second_pose_network = kSecondPoseNetwork;
+  DepthPoseParams depth_pose;
   /// Space kept around a cluster in its range image [m].
   float range_image_margin_m = 0.15F;
 };

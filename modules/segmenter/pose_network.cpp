@@ -47,19 +47,6 @@ cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
   return image;
 }
 
-/// A camera in the sensor's place whose image is the network's input: `side_m` wide around the
-/// middle of somebody who is not too near.
-std::optional<PinholeCamera> camera_towards(const Eigen::Vector3f& middle_m, float side_m) {
-  if (!(middle_m.z() > 0.0F)) return std::nullopt;
-  constexpr double kMiddle_px = 0.5 * (kPictureSide_px - 1);
-  PinholeCamera camera;
-  camera.width = camera.height = kPictureSide_px;
-  camera.fx = camera.fy = kPictureSide_px * middle_m.z() / side_m;
-  camera.cx = kMiddle_px - camera.fx * middle_m.x() / middle_m.z();
-  camera.cy = kMiddle_px - camera.fy * middle_m.y() / middle_m.z();
-  return camera;
-}
-
 /// The person's points, and those that may be the person's, in a picture's frame.
 std::vector<Eigen::Vector3f> points_of(const Cloud& cloud, const LabelledPerson& person,
                                        const Eigen::Matrix3f& frame_from_picture) {
@@ -110,7 +97,7 @@ std::optional<ImagePose> PoseNetwork::look_at_surface(const Cloud& cloud,
   const Eigen::Vector3f middle_m = person.head_m + params_.middle_below_head_m * down;
   const Eigen::Matrix3f frame_from_picture = upright_view(middle_m, down);
   const std::optional<PinholeCamera> camera =
-      camera_towards(frame_from_picture.transpose() * middle_m, params_.side_m);
+      camera_towards(frame_from_picture.transpose() * middle_m, params_.side_m, kPictureSide_px);
   if (!camera) return std::nullopt;
   const cv::Mat3b picture =
       draw_shaded(points_of(cloud, person, frame_from_picture), *camera, params_.surface);

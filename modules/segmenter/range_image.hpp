@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
@@ -23,6 +24,11 @@ bool is_skin_colored(const RangeImageSource& source, std::size_t point);
 /// Axes of an upright view towards `middle_m`, as columns: right, down, away. `down` points to its
 /// bottom.
 Eigen::Matrix3f upright_view(const Eigen::Vector3f& middle_m, const Eigen::Vector3f& down);
+
+/// A camera in the sensor's place whose square image of `side_px` is `side_m` wide around
+/// `middle_m`, in the camera's frame; nothing where that is not before it.
+std::optional<PinholeCamera> camera_towards(const Eigen::Vector3f& middle_m, float side_m,
+                                            int side_px);
 
 /// Fills points_m, is_skin and range_image of `segment` from an organised cloud: the pixels that
 /// carry `label` and what the sensor saw around them.

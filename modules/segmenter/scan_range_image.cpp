@@ -95,6 +95,18 @@ Eigen::Matrix3f upright_view(const Eigen::Vector3f& middle_m, const Eigen::Vecto
   return frame_from_image;
 }
 
+std::optional<PinholeCamera> camera_towards(const Eigen::Vector3f& middle_m, float side_m,
+                                            int side_px) {
+  if (!(middle_m.z() > 0.0F)) return std::nullopt;
+  const double middle_px = 0.5 * (side_px - 1);
+  PinholeCamera camera;
+  camera.width = camera.height = side_px;
+  camera.fx = camera.fy = side_px * middle_m.z() / side_m;
+  camera.cx = middle_px - camera.fx * middle_m.x() / middle_m.z();
+  camera.cy = middle_px - camera.fy * middle_m.y() / middle_m.z();
+  return camera;
+}
+
 void fill_from_scan(const RangeImageSource& source, std::int16_t label, const Eigen::Vector3f& down,
                     float focal_px, int gap_px, Segment& segment) {
   const bool colored = !source.cloud.colors.empty();

@@ -1,5 +1,6 @@
 #include "modules/segmenter/segmenter.hpp"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -52,12 +53,6 @@ std::optional<HeadCandidate> head_at(const Lattice& lattice, const Eigen::Vector
   return head;
 }
 
-/// Centre of the head whose surface is seen at `seed_m`.
-Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
-  constexpr float kHeadDepth_m = 0.09F;
-  return seed_m + kHeadDepth_m * seed_m.normalized();
-}
-
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
@@ -66,8 +61,13 @@ void reject(const Rejection& rejection, Segment& segment) {
 
 }  // namespace
 
+Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
+  constexpr float kHeadDepth_m = 0.09F;
+  return seed_m + kHeadDepth_m * seed_m.normalized();
+}
+
 Segmenter::Segmenter(const Params& params)
-    : params_(params), faces_(params.faces), image_(params) {}
+    : params_(params), faces_(params.faces), image_(params), depth_pose_(params.depth_pose) {}
 
 Segments Segmenter::segment(const Cloud& cloud) const {
   Segments result;
@@ -205,7 +205,7 @@ void Segmenter::join_arms(const Scene& scene, std::vector<std::int16_t>& labels,
   const auto look = [&](const std::vector<std::int16_t>& told,
                         std::int16_t person) -> std::optional<ImagePose> {
     const Segment& segment = result.segments[static_cast<std::size_t>(person)];
-    auto poses = image_.see(scene, {told, person, behind_surface(segment.seed_m)}, RangeImage());
+    auto poses = image_.see(scene, {told, person, behind_surface(segment.seed_m)});
     if (poses.empty()) return std::nullopt;
     return std::move(poses.back());
   };
@@ -214,32 +214,38 @@ void Segmenter::join_arms(const Scene& scene, std::vector<std::int16_t>& labels,
 
 void Segmenter::see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                            Segments& result) const {
-  const bool image = has_image(scene.cloud);
-  const RangeImage none;
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
-    if (!segment.valid() || (!image && !segment.range_image)) continue;
+    if (!segment.valid()) continue;
     const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
     const LabelledPerson person{labels, static_cast<std::int16_t>(k), head_m};
-    tbb::parallel_invoke(
-        [&] {
-          segment.image_poses = image_.see(scene, person, image ? none : *segment.range_image);
-        },
-        [&] {
-          // A head that is out of sight shows no face: that tells nothing.
-          if (segment.seed_kind != SeedKind::kBody)
-            segment.face = faces_.look(scene.cloud, head_m, scene.lattice.up);
-        });
+    tbb::parallel_invoke([&] { segment.image_poses = image_.see(scene, person); },
+                         [&] {
+                           // A head that is out of sight shows no face: that tells nothing.
+                           if (segment.seed_kind != SeedKind::kBody)
+                             segment.face = faces_.look(scene.cloud, head_m, scene.lattice.up);
+                         });
   }
+}
+
+void Segmenter::see_depths(const Eigen::Vector3f& down, Segments& result) const {
+  tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
+    Segment& segment = result.segments[k];
+    if (!segment.valid() || !segment.range_image) return;
+    auto pose = depth_pose_.look(*segment.range_image, behind_surface(segment.seed_m), down);
+    if (!pose) return;
+    segment.image_poses.resize(kImageNetworkCount);
+    segment.image_poses[static_cast<std::size_t>(ImageNetwork::kDepthPose)] = std::move(*pose);
+  });
 }
 
 void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
                               Segments& result) const {
-  // The image tells of arms that are in no segment yet; without one the segments are the picture.
-  const bool seen_before = has_image(scene.cloud);
-  const bool mends_arms = seen_before && params_.growing != Growing::kPaper;
+  // The image tells of arms that are in no segment yet.
+  const bool image = has_image(scene.cloud);
+  const bool mends_arms = image && params_.growing != Growing::kPaper;
   if (mends_arms) join_arms(scene, labels, result);
-  if (seen_before) see_people(scene, labels, result);
+  if (image) see_people(scene, labels, result);
   if (mends_arms) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
   const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
                                 params_.range_image_margin_m};
@@ -255,7 +261,7 @@ void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labe
       fill_from_scan(source, label, down, params_.scan_range_image.focal_px,
                      params_.scan_range_image.gap_px, segment);
   }
-  if (!seen_before) see_people(scene, labels, result);
+  see_depths(down, result);
 }
 
 Segments segment(const Cloud& cloud, const Params& params) {

@@ -6,6 +6,7 @@
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
 #include "modules/segmenter/body_classifier.hpp"
+#include "modules/segmenter/depth_pose.hpp"
 #include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/head_classifier.hpp"
 #include "modules/segmenter/image_opinion.hpp"
@@ -16,6 +17,9 @@
 #include "modules/segmenter/surfaces.hpp"
 
 namespace limbcast::segmenter {
+
+/// Centre of the head whose surface is seen at `seed_m`, in the sensor's frame.
+Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m);
 
 /// Finds the people in a cloud (paper, section III-B). Keeps nothing from one cloud to the next.
 class Segmenter {
@@ -45,9 +49,11 @@ class Segmenter {
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
   /// Joins segments that are arms of somebody else's to theirs, as the image shows them.
   void join_arms(const Scene& scene, std::vector<std::int16_t>& labels, Segments& result) const;
-  /// What the networks see of each person and its face: in a camera's image, or in `range_image`.
+  /// What the networks see of each person and its face in the colour image.
   void see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                   Segments& result) const;
+  /// What the network of depths sees of each person.
+  void see_depths(const Eigen::Vector3f& down, Segments& result) const;
   void fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Segments& result) const;
 
   Params params_;
@@ -56,6 +62,7 @@ class Segmenter {
   BodyClassifier bodies_;
   FaceFinder faces_;
   ImageOpinion image_;
+  DepthPose depth_pose_;
   SurfaceClassifier surfaces_;
 };
 

@@ -79,6 +79,21 @@ BENCHMARK_CAPTURE(see_joints, blaze_pose, PoseNetworkParams{}, PictureNetworkKin
 BENCHMARK_CAPTURE(see_joints, move_net, kSecondPoseNetwork, PictureNetworkKind::kMoveNet)
     ->Unit(benchmark::kMillisecond);
 
+/// The network of depths at the first person.
+void see_joints_in_depths(benchmark::State& state, NetworkLibrary library) {
+  DepthPoseParams params;
+  params.library = library;
+  const DepthPose network(params);
+  const Segments people = Segmenter().cut_out_people(cloud(), {seed_m()});
+  const RangeImage& view = people.segments.at(0).range_image.value();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(network.look(view, seed_m(), cloud().stamp.gravity.down));
+}
+BENCHMARK_CAPTURE(see_joints_in_depths, quickest, network_libraries().front())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(see_joints_in_depths, portable, NetworkLibrary::kXnnpack)
+    ->Unit(benchmark::kMillisecond);
+
 using MakeSearch = std::unique_ptr<NeighborSearch> (*)(const Cloud&);
 
 /// Algorithm 1 from one seed, with what it needs for a new cloud.

@@ -97,8 +97,9 @@ TEST(CodecMessages, KeepEveryFieldOfASegment) {
   EXPECT_EQ(segment.seed_score, 0.7F);
   EXPECT_EQ(segment.face.facing_log_odds, 2.5F);
   EXPECT_EQ(segment.face.looks_right_log_odds, -1.5F);
-  ASSERT_EQ(segment.image_poses.size(), 2U);
-  EXPECT_EQ(segment.image_poses[1].person_score, 0.5F);
+  ASSERT_EQ(segment.image_poses.size(), 3U);
+  EXPECT_TRUE(segment.image_poses[1].joints.empty());
+  EXPECT_EQ(segment.image_poses[2].person_score, 0.5F);
   EXPECT_EQ(segment.image_poses[0].person_score, 0.6F);
   ASSERT_EQ(segment.image_poses[0].joints.size(), 2U);
   const ImageJoint& joint = segment.image_poses[0].joints[1];

@@ -115,7 +115,7 @@ TEST(CodecRefusals, NameWhatIsWrongWithAPersonOfAnImage) {
                     range = "joint of an image is out of range";
   expect_refused<Message>(
       segments_message(),
-      {{[=](Message& m) { m.segments[0].image_poses.push_back(pose(m)); },
+      {{[=](Message& m) { m.segments[0].image_poses.resize(4, pose(m)); },
         "too many poses of a person in the image"},
        {[=](Message& m) { pose(m).person_score = -0.1F; }, score},
        {[=](Message& m) { pose(m).person_score = 1.1F; }, score},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -110,6 +111,31 @@ TEST_F(Confidence, OfTheFacingFallsWhereTheImageTellsTheSidesOtherwise) {
   EXPECT_LT(facing_confidence(evidence_), before);
 }
 
+TEST_F(Confidence, FallsWhereTheDepthsAloneTellOtherwiseAndNotBesideColors) {
+  ImageEvidence& depths = evidence_.images[static_cast<std::size_t>(ImageNetwork::kDepthPose)];
+  depths.told = true;
+  depths.visibility.fill(1.0);
+  for (const bool has_colors : {false, true}) {
+    evidence_.has_colors = has_colors;
+    const auto all = [&] {
+      return std::array<Real, 3>{joint_confidence(evidence_, kWrist), facing_confidence(evidence_),
+                                 of_direction()};
+    };
+    depths.sides_agreement = 1.0;
+    depths.disagreement[kWrist] = 0.0;
+    const std::array<Real, 3> agreed = all();
+    depths.sides_agreement = -1.0;
+    depths.disagreement[kWrist] = 1.0;
+    const std::array<Real, 3> otherwise = all();
+    for (std::size_t i = 0; i < agreed.size(); ++i) {
+      if (has_colors)
+        EXPECT_EQ(otherwise[i], agreed[i]) << i;
+      else
+        EXPECT_LT(otherwise[i], agreed[i]) << i;
+    }
+  }
+}
+
 TEST_F(Confidence, OfPairedJointsAloneFallsWhereTheBodyMayFaceTheOtherWay) {
   const Real shoulder = joint_confidence(evidence_, kShoulder),
              pelvis = joint_confidence(evidence_, kPelvis);
@@ -136,8 +162,12 @@ class ToldDirections : public Confidence {
     const auto observation = observe(testing::seen(body_), testing::stamp(), RefinedParams{});
     if (observation) observation_ = *observation;
     evidence_.head_odds = 3.0;
-    evidence_.images[0].told = true;
-    for (ImageEvidence& image : evidence_.images) image.visibility.fill(1.0);
+    evidence_.has_colors = true;
+    for (ImageEvidence& image : evidence_.images) {
+      image.told = true;
+      image.person_score = image.sides_agreement = 1.0;
+      image.visibility.fill(1.0);
+    }
   }
   std::vector<Side> sides() const {
     std::vector<Side> sides;
@@ -169,8 +199,8 @@ TEST_F(ToldDirections, AreOfBothArmsWhereBothAreSure) {
 }
 
 TEST_F(ToldDirections, AreNoneOfAHardlySureArmBesideAnUnsureOneThatIsMoreRaised) {
-  make_as_sure(0, 0.3, 0.7);
-  make_as_sure(1, 0.9, 0.97);
+  make_as_sure(0, 0.5, 0.7);
+  make_as_sure(1, 0.85, 0.95);
   EXPECT_TRUE(sides().empty());
 }
 
@@ -189,12 +219,15 @@ TEST_F(ToldDirections, IncludeTheOtherArmWhereTheMoreRaisedOneIsSurelyWrong) {
 
 TEST_F(ToldDirections, AreNoneOfABodyThatMayFaceTheOtherWay) {
   evidence_.flip_gap = 0.0;
+  for (ImageEvidence& image : evidence_.images) image.sides_agreement = 0.0;
   EXPECT_TRUE(sides().empty());
 }
 
 /// A body fitted to what a sensor sees of somebody who stands 2.5 m away.
 FittedBody standing_person() {
-  Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
+  const BodyState body = testing::standing_body(2.5, 0.0);
+  Segment segment = testing::seen(body);
+  segment.image_poses = testing::in_depths(body);
   segment.seed_kind = SeedKind::kHeadShape;
   segment.seed_score = 0.95F;
   auto fitted = fit_body(segment, testing::stamp(), RefinedParams{});
@@ -202,12 +235,14 @@ FittedBody standing_person() {
   return *fitted;
 }
 
-/// The same with a head so doubtful, a posture so odd and joints so unsure that the confidence lies
-/// between `least` and `most`.
+/// The same with a head so doubtful, a posture so odd, joints so unsure and seen so poorly that the
+/// confidence lies between `least` and `most`.
 FittedBody doubtful_person(Real least, Real most) {
   FittedBody fitted = standing_person();
   const auto sigma_m = fitted.evidence.sigma_m;
-  for (const Real unsure : {1.0, 2.0, 4.0, 8.0}) {
+  for (const Real unsure : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}) {
+    fitted.evidence.images.back().person_score = 1.0 / unsure;
+    fitted.evidence.images.back().visibility.fill(1.0 / unsure);
     for (int i = 0; i < kPointCount; ++i) fitted.evidence.sigma_m[i] = unsure * sigma_m[i];
     for (const Real prior_cost : {10.0, 20.0, 30.0, 50.0, 80.0}) {
       fitted.evidence.prior_cost = prior_cost;

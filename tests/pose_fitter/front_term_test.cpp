@@ -67,12 +67,17 @@ TEST(FrontTerm, TellsWhoIsSeenFromTheSide) {
   for (const double side : {-90.0, 90.0}) EXPECT_NEAR(sideways_at(side), 1.0, 1e-6);
 }
 
-TEST(FrontTerm, MindsNoTrunkWhoseSurfaceAloneWasLookedAt) {
+TEST(FrontTerm, MindsATrunkTurnedAgainstTheDepths) {
   const RefinedParams params;
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
-  segment.image_poses = {testing::in_image(testing::standing_body(2.5, 90.0 * kDegree))};
+  segment.image_poses = testing::in_depths(testing::standing_body(2.5, 90.0 * kDegree));
   const auto observation = refined::observe(segment, testing::stamp(), params);
-  EXPECT_EQ(front_cost(testing::standing_body(2.5, -90.0 * kDegree), *observation, params), 0.0);
+  const double most = params.front_cost_per_log_odds * params.image_side_log_odds;
+  const auto cost_at = [&](double yaw_deg) {
+    return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
+  };
+  EXPECT_NEAR(cost_at(90.0), 0.0, 0.01);
+  EXPECT_NEAR(cost_at(-90.0), most, 0.01 * most);
 }
 
 TEST(FrontTerm, MindsATrunkTurnedAgainstTheImage) {

@@ -34,7 +34,7 @@ BodyState bent_body(Real angle_rad) {
   return body;
 }
 
-/// What a sensor without colours sees of it, with a network that sees `shown` in its surface.
+/// What a sensor sees of it, with a network that sees `shown`.
 Segment seen_as(const BodyState& body, const BodyState& shown) {
   Segment segment = testing::seen(body);
   segment.image_poses = {testing::in_image(shown)};
@@ -119,12 +119,16 @@ TEST(ImageStart, AsksTheSecondNetworkWhereItSeesAnotherBody) {
   EXPECT_EQ(count_looks(elsewhere), 2U);
 }
 
-TEST(ImageStart, TellsLeftFromRightByColorsOnly) {
-  const BodyState body = testing::standing_body(2.5, 0.0);
-  const Segment segment = seen_as(body, body);
-  EXPECT_EQ(observed(segment).looks.front().swap_cost, 0.0);
-  EXPECT_EQ(observed(testing::colored(segment)).looks.front().swap_cost,
-            RefinedParams{}.image_swap_cost);
+TEST(ImageStart, IsWhatTheNetworkOfDepthsSeesWhereNoOtherLooked) {
+  const BodyState body = pointing_body();
+  Segment segment = testing::seen(body);
+  segment.image_poses = testing::in_depths(body);
+  const Observation observation = observed(segment);
+  ASSERT_EQ(observation.looks.size(), 1U);
+  EXPECT_EQ(observation.looks.front().network, ImageNetwork::kDepthPose);
+  const auto start = start_of(observation, testing::standing_body(2.5, 0));
+  ASSERT_TRUE(start);
+  EXPECT_LT(error_m(*start, body, kWrist), 0.15);
 }
 
 }  // namespace

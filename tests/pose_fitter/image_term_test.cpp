@@ -19,7 +19,6 @@ class ImageTerm : public ::testing::Test {
     ImageLook look;
     look.network = network;
     look.weight = 2.0;
-    look.swap_cost = RefinedParams{}.image_swap_cost;
     look.person_score = 0.9;
     for (int joint = 0; joint < kJointCount; ++joint)
       look.joints[joint] = {marked_place(body, joint, network).normalized(), 1.0};
@@ -109,11 +108,6 @@ TEST_F(ImageTerm, TellsHowClearlyTheSidesAgree) {
   EXPECT_NEAR(evidence_of(body_).sides_agreement, -1.0, 1e-9);
 }
 
-TEST_F(ImageTerm, TellsNothingOfTheSidesWithoutColors) {
-  observation_.looks.front().swap_cost = 0.0;
-  EXPECT_EQ(evidence_of(body_).sides_agreement, 0.0);
-}
-
 TEST_F(ImageTerm, MarksTheShoulderOfAHangingArmHigher) {
   BodyState raised = body_;
   raised.points[kElbow] = raised.points[kShoulder] + 0.3 * raised.rotation.col(1);
@@ -152,6 +146,19 @@ TEST_F(ImageTerm, CountsTheSidesOfEachNetworkByItself) {
   const auto evidence = image_evidence(body_, observation_, params_);
   EXPECT_TRUE(evidence[0].sides_swapped);
   EXPECT_FALSE(evidence[1].sides_swapped);
+}
+
+TEST_F(ImageTerm, TellsWhatTheNetworkOfDepthsSeesByItself) {
+  observation_.looks.push_back(
+      look_of(with_wrist_moved({0.5, 0.0, 0.0}), ImageNetwork::kDepthPose));
+  const auto evidence = image_evidence(body_, observation_, params_);
+  EXPECT_FALSE(evidence[1].told);
+  EXPECT_TRUE(evidence[2].told);
+  EXPECT_NEAR(evidence[0].disagreement[kWrist], 0.0, 1e-9);
+  EXPECT_GT(evidence[2].disagreement[kWrist], 0.9);
+  // It was trained on the joints' centres.
+  for (int joint = 0; joint < kJointCount; ++joint)
+    EXPECT_EQ(marked_place(body_, joint, ImageNetwork::kDepthPose), body_.points[joint]);
 }
 
 TEST_F(ImageTerm, TellsNothingWithoutAnImage) {

@@ -100,16 +100,21 @@ Segment colored(Segment segment) {
   return segment;
 }
 
-ImagePose in_image(const refined::BodyState& body) {
+ImagePose in_image(const refined::BodyState& body, ImageNetwork network) {
   ImagePose pose{1.0F, {}};
   const float hips_z_m = static_cast<float>(body.points[index(Joint::kPelvis)].z());
   for (int joint = 0; joint < kJointCount; ++joint) {
-    const Eigen::Vector3f place_m =
-        refined::marked_place(body, joint, refined::ImageNetwork::kBlazePose).cast<float>();
+    const Eigen::Vector3f place_m = refined::marked_place(body, joint, network).cast<float>();
     pose.joints.push_back(
         {static_cast<Joint>(joint), camera().project(place_m), 1.0F, place_m.z() - hips_z_m});
   }
   return pose;
+}
+
+std::vector<ImagePose> in_depths(const refined::BodyState& body) {
+  std::vector<ImagePose> poses(kImageNetworkCount);
+  poses.back() = in_image(body, ImageNetwork::kDepthPose);
+  return poses;
 }
 
 }  // namespace limbcast::pose_fitter::testing

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "common/cloud/segment.hpp"
 #include "modules/pose_fitter/refined/body_state.hpp"
@@ -27,6 +28,8 @@ Segment seen(const refined::BodyState& body, int occluder_u = 1 << 20,
 /// The same person, seen by a camera with colours: none of it is skin.
 Segment colored(Segment segment);
 /// A body as a perfect network for poses would see it.
-ImagePose in_image(const refined::BodyState& body);
+ImagePose in_image(const refined::BodyState& body, ImageNetwork network = ImageNetwork::kBlazePose);
+/// What a segment tells where the network of depths alone looked.
+std::vector<ImagePose> in_depths(const refined::BodyState& body);
 
 }  // namespace limbcast::pose_fitter::testing

@@ -149,7 +149,7 @@ TEST_F(JointsOfTheDemo, AreToldOfThePeopleAndNotOfWhatIsRejected) {
       std::count_if(segments.begin(), segments.end(), [](const Segment& s) { return s.valid(); }),
       1);
   for (const Segment& found : segments)
-    EXPECT_EQ(found.image_poses.size(), found.valid() ? 2U : 0U);
+    EXPECT_EQ(found.image_poses.size(), found.valid() ? 3U : 0U);
   EXPECT_GT(segments.at(0).image_poses.at(0).person_score, 0.9F);
 }
 
@@ -159,45 +159,28 @@ TEST_F(JointsOfTheDemo, AreNotSeenInColorsThatAreNone) {
   EXPECT_FALSE(look(colorless, head_m_));
 }
 
-TEST_F(JointsOfTheDemo, AreSeenInTheSurfaceWithoutColor) {
-  constexpr float kNear_m = 0.10F;
-  for (const bool hangs_sideways : {false, true}) {
-    Cloud colorless = hangs_sideways ? turned(cloud_) : cloud_;
-    colorless.colors.clear();
-    const ImagePose pose = segment(colorless).segments.at(0).image_poses.at(0);
-    EXPECT_GT(pose.person_score, 0.9F);
-    // Sides are a guess; these are not.
-    const Eigen::Vector2f hips_px =
-        0.5F * (find(pose, Joint::kHipLeft).px + find(pose, Joint::kHipRight).px);
-    const std::vector<std::pair<Eigen::Vector2f, Joint>> places = {
-        {find(pose, Joint::kHead).px, Joint::kHead}, {hips_px, Joint::kPelvis}};
-    for (const auto& [px, joint] : places) {
-      const Eigen::Vector3f truth_m =
-          hangs_sideways ? turned(person_[joint].position_m) : person_[joint].position_m;
-      const Eigen::Vector3f told_m = colorless.camera->back_project(px.x(), px.y(), truth_m.z());
-      EXPECT_LT((told_m - truth_m).norm(), kNear_m) << kJointNames[index(joint)];
-    }
-  }
-}
-
 TEST_F(JointsOfTheDemo, AreNotToldInACloudThatIsNoCameras) {
   Cloud list = cloud_;
   list.camera.reset();
   EXPECT_FALSE(look(list, head_m_));
 }
 
-TEST_F(JointsOfTheDemo, AreNotToldWhereNobodyWantsThem) {
-  Params params;
-  params.pose_network.enabled = false;
-  EXPECT_TRUE(Segmenter(params).segment(cloud_).segments.at(0).image_poses.empty());
+/// Whether each network looked.
+std::vector<bool> looked(const Segments& segments) {
+  std::vector<bool> looked;
+  for (const ImagePose& pose : segments.segments.at(0).image_poses)
+    looked.push_back(!pose.joints.empty());
+  return looked;
 }
 
-TEST_F(JointsOfTheDemo, AreToldOfTheFirstNetworkAloneWhereTheSecondIsNotWanted) {
+TEST_F(JointsOfTheDemo, AreToldByTheNetworksThatAreWanted) {
   Params params;
   params.second_pose_network.enabled = false;
-  const auto poses = Segmenter(params).segment(cloud_).segments.at(0).image_poses;
-  ASSERT_EQ(poses.size(), 1U);
-  EXPECT_TRUE(tell_the_same(poses[0], segment(cloud_).segments.at(0).image_poses.at(0)));
+  EXPECT_EQ(looked(Segmenter(params).segment(cloud_)), (std::vector<bool>{true, false, true}));
+  params.depth_pose.enabled = false;
+  EXPECT_EQ(looked(Segmenter(params).segment(cloud_)), (std::vector<bool>{true}));
+  params.pose_network.enabled = false;
+  EXPECT_TRUE(looked(Segmenter(params).segment(cloud_)).empty());
 }
 
 TEST_F(JointsOfTheDemo, AreNotToldOfAPersonTooSmallToSee) {

@@ -40,8 +40,15 @@ Real image_visibility(const ImageEvidence& image, int first, int end) {
   return sum / (end - first);
 }
 
-/// Whether any network looked: the second never does alone.
+/// Whether the networks of colours looked: the second never does alone.
 bool is_told(const Evidence& evidence) { return evidence.images.front().told; }
+
+/// Where colours are seen the marks of the network of depths, which real depth cameras mislead more
+/// than simulated ones, tell nothing more of a joint.
+ImageEvidence marks_that_count(const Evidence& evidence, std::size_t network) {
+  const bool in_depths = network == static_cast<std::size_t>(ImageNetwork::kDepthPose);
+  return in_depths && evidence.has_colors ? ImageEvidence{} : evidence.images.at(network);
+}
 
 /// Mean over the points from `first` to before `end`.
 Real mean_log_sigma(const Evidence& evidence, int first, int end) {
@@ -71,7 +78,8 @@ JointFeatures joint_features(const Evidence& evidence, int joint) {
       lower_arm ? 1.0 : 0.0, lower_arm ? strength(evidence.arms[(joint - kElbow) % 2].gap) : 0.0,
       on_axis(joint) ? 1.0 : 0.0, on_axis(joint) ? 0.0 : strength(evidence.flip_gap),
       is_told(evidence) ? 1.0 : 0.0;
-  for (const ImageEvidence& image : evidence.images) {
+  for (std::size_t network = 0; network < evidence.images.size(); ++network) {
+    const ImageEvidence image = marks_that_count(evidence, network);
     list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint],
         on_axis(joint) ? 0.0 : image.sides_agreement;
   }
@@ -83,7 +91,8 @@ FacingFeatures facing_features(const Evidence& evidence) {
   auto list = features << 1.0;
   list, strength(evidence.flip_gap), evidence.has_colors ? 1.0 : 0.0, evidence.face_agreement,
       evidence.face_seen ? 1.0 : 0.0, evidence.sideways, odd_posture(evidence);
-  for (const ImageEvidence& image : evidence.images) list, image.sides_agreement;
+  for (std::size_t network = 0; network < evidence.images.size(); ++network)
+    list, marks_that_count(evidence, network).sides_agreement;
   return features;
 }
 
@@ -97,7 +106,8 @@ DirectionFeatures direction_features(const BodyState& body, int side, const Evid
       std::log(std::max(kLeastSigmaDeg, arm.sigma_rad * kDegreesPerRadian<Real>)), arm.bend_rad,
       odd_posture(evidence), std::min(1.0, surface_misfit(evidence)), arm.forwards,
       std::max(0.0, -arm.outwards), is_told(evidence) ? 1.0 : 0.0;
-  for (const ImageEvidence& image : evidence.images) {
+  for (std::size_t network = 0; network < evidence.images.size(); ++network) {
+    const ImageEvidence image = marks_that_count(evidence, network);
     for (int joint = kShoulder + side; joint < kHip; joint += 2)
       list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint];
   }

@@ -9,10 +9,10 @@ namespace limbcast::pose_fitter::refined {
 
 template <int count>
 using Features = Eigen::Matrix<Real, count, 1>;
-using JointFeatures = Features<16>;
-using FacingFeatures = Features<9>;
-using DirectionFeatures = Features<22>;
-using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 41, 1>;
+using JointFeatures = Features<10 + 3 * kImageNetworkCount>;
+using FacingFeatures = Features<7 + kImageNetworkCount>;
+using DirectionFeatures = Features<10 + 6 * kImageNetworkCount>;
+using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 29 + 6 * kImageNetworkCount, 1>;
 
 /// What tells that a joint is within 10 cm.
 JointFeatures joint_features(const Evidence& evidence, int joint);

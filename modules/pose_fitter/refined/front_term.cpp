@@ -41,16 +41,13 @@ Real face_disagreement(const Vec3& front, const View& view, const FaceEvidence& 
 
 /// From right to left of the shoulders and hips [m]: across the ray by their marks, along it by the
 /// network's own depths. Zero where none is told.
-Vec3 leftwards_in_image(const Observation& observation, const View& view) {
+Vec3 leftwards_in_image(const ImageLook& look, Real distance_m, const View& view) {
   Vec3 leftwards = Vec3::Zero();
-  // The second network tells no depths.
-  if (observation.looks.empty()) return leftwards;
-  const auto& joints = observation.looks.front().joints;
+  if (look.network == ImageNetwork::kMoveNet) return leftwards;  // it tells no depths
   for (const int pair : {static_cast<int>(kShoulder), static_cast<int>(kHip)}) {
-    const SeenJoint& left = joints[pair];
-    const SeenJoint& right = joints[pair + 1];
+    const SeenJoint& left = look.joints[pair];
+    const SeenJoint& right = look.joints[pair + 1];
     if (left.visibility <= 0.0 || right.visibility <= 0.0) continue;
-    const Real distance_m = observation.head_start.norm();
     leftwards += distance_m * view.right.dot(left.ray - right.ray) * view.right +
                  (left.behind_hips_m - right.behind_hips_m) * view.away;
   }
@@ -59,14 +56,16 @@ Vec3 leftwards_in_image(const Observation& observation, const View& view) {
 
 Real image_disagreement(const Vec3& front, const View& view, const Observation& observation,
                         Real side_log_odds) {
-  // Whose surface alone was looked at shows no face: the network's sides are a guess.
-  if (!observation.has_colors) return 0.0;
-  const Vec3 leftwards = leftwards_in_image(observation, view);
-  if (leftwards.isZero()) return 0.0;
-  const Vec3 told = leftwards.cross(observation.up).normalized();
-  // Of a trunk seen from the front or from behind the marks alone tell the sides: the image term.
-  const Real sideways = told.dot(view.right);
-  return disagreement(side_log_odds * sideways * sideways, front.dot(told));
+  Real sum = 0.0;
+  for (const ImageLook& look : observation.looks) {
+    const Vec3 leftwards = leftwards_in_image(look, observation.head_start.norm(), view);
+    if (leftwards.isZero()) continue;
+    const Vec3 told = leftwards.cross(observation.up).normalized();
+    // Of a trunk seen from the front or from behind the marks alone tell the sides: the image term.
+    const Real sideways = told.dot(view.right);
+    sum += disagreement(side_log_odds * sideways * sideways, front.dot(told));
+  }
+  return sum;
 }
 
 }  // namespace

@@ -40,7 +40,19 @@ const Marks& marks_of(ImageNetwork network) {
       {Vec3(0.0, -0.033, 0.012), Vec3(-0.005, 0.011, 0.003), Vec3::Zero(), Vec3(0.0, 0.004, 0.0),
        Vec3(-0.002, 0.010, 0.028), Vec3(0.0, -0.010, 0.004), Vec3(0.0, 0.010, 0.005)},
       0.021};
-  return network == ImageNetwork::kBlazePose ? blaze_pose : move_net;
+  // It was trained on the joints' centres.
+  static const Marks depth_pose = {{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
+                                    Vec3::Zero(), Vec3::Zero(), Vec3::Zero()},
+                                   0.0};
+  switch (network) {
+    case ImageNetwork::kBlazePose:
+      return blaze_pose;
+    case ImageNetwork::kMoveNet:
+      return move_net;
+    case ImageNetwork::kDepthPose:
+      break;
+  }
+  return depth_pose;
 }
 
 Real limit_of(ImageNetwork network, const RefinedParams& params) {
@@ -71,7 +83,7 @@ SideCosts side_costs(const BodyState& body, const ImageLook& look, unsigned part
     costs.as_told += image_cost(look, joint, place, params);
     costs.exchanged += image_cost(look, mirrored(joint), place, params);
   }
-  costs.exchanged += look.swap_cost;
+  costs.exchanged += params.image_swap_cost;
   return costs;
 }
 
@@ -82,10 +94,8 @@ ImageEvidence evidence_of(const BodyState& body, const ImageLook& look,
   evidence.person_score = look.person_score;
   const SideCosts costs = side_costs(body, look, kAllParts, params);
   evidence.sides_swapped = costs.exchanged < costs.as_told;
-  if (look.swap_cost > 0.0) {
-    const Real gap = (costs.exchanged - look.swap_cost - costs.as_told) / look.weight;
-    evidence.sides_agreement = std::clamp(gap / kClearSidesGap, -1.0, 1.0);
-  }
+  const Real gap = (costs.exchanged - params.image_swap_cost - costs.as_told) / look.weight;
+  evidence.sides_agreement = std::clamp(gap / kClearSidesGap, -1.0, 1.0);
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SeenJoint& seen = look.joints[evidence.sides_swapped ? mirrored(joint) : joint];
     evidence.visibility[joint] = seen.visibility;
@@ -147,8 +157,8 @@ std::array<ImageEvidence, kImageNetworkCount> image_evidence(const BodyState& bo
                                                              const Observation& observation,
                                                              const RefinedParams& params) {
   std::array<ImageEvidence, kImageNetworkCount> evidence;
-  for (std::size_t i = 0; i < observation.looks.size(); ++i)
-    evidence.at(i) = evidence_of(body, observation.looks[i], params);
+  for (const ImageLook& look : observation.looks)
+    evidence.at(static_cast<std::size_t>(look.network)) = evidence_of(body, look, params);
   return evidence;
 }
 

@@ -15,8 +15,7 @@ struct ImageEvidence {
   bool told = false;
   Real person_score = 0.0;     ///< 0 to 1
   bool sides_swapped = false;  ///< it fits better where the image takes left for right
-  /// How much better it fits with left and right as the colour image tells them than exchanged, -1
-  /// to 1; 0 where the image has no colours.
+  /// How much better it fits with left and right as the network tells them than exchanged, -1 to 1.
   Real sides_agreement = 0.0;
   /// Of each joint how sure the network is that it is in sight, and how far off it stands: 0 on the
   /// ray, 1 far off it.

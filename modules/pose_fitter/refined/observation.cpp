@@ -155,14 +155,12 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
   observation.has_colors = !image.is_skin.empty();
   const Eigen::Vector2f origin_px(static_cast<float>(image.origin_u),
                                   static_cast<float>(image.origin_v));
-  for (const ImagePose& pose : segment.image_poses) {
+  for (std::size_t network = 0; network < segment.image_poses.size(); ++network) {
+    const ImagePose& pose = segment.image_poses[network];
+    if (pose.joints.empty()) continue;
     ImageLook look;
-    const std::size_t network = observation.looks.size();
     look.network = static_cast<ImageNetwork>(network);
-    look.weight = segment.image_poses.size() == 1 ? params.lone_image_weight
-                                                  : params.image_weight.at(network);
-    // Of a surface without colours left and right are a guess.
-    look.swap_cost = observation.has_colors ? params.image_swap_cost : 0.0;
+    look.weight = params.image_weight.at(network);
     look.person_score = pose.person_score;
     for (const ImageJoint& joint : pose.joints) {
       const Eigen::Vector2f px = joint.px - origin_px;

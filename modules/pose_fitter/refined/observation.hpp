@@ -29,15 +29,10 @@ struct SeenJoint {
   Real behind_hips_m = 0.0;  ///< how much farther away than the hips' middle; rough
 };
 
-/// The networks that look at the image, in the order in which a segment holds what they see.
-enum class ImageNetwork { kBlazePose, kMoveNet };
-constexpr int kImageNetworkCount = 2;
-
 /// A person as one of them sees it.
 struct ImageLook {
   ImageNetwork network = ImageNetwork::kBlazePose;
   Real weight = 0.0;        ///< of its joints against the surface
-  Real swap_cost = 0.0;     ///< of a body whose left it takes for right
   Real person_score = 0.0;  ///< how sure the network is of a person, 0 to 1
   std::array<SeenJoint, kJointCount> joints;
 };
@@ -59,9 +54,9 @@ struct Observation {
   std::vector<float> skin_distance_px;
   DepthNoise noise;
 
-  FaceEvidence face;               ///< what its face tells
-  std::vector<ImageLook> looks;    ///< of the first networks, or of none
-  bool has_colors = false;         ///< else the networks saw the surface, whose sides are a guess
+  FaceEvidence face;             ///< what its face tells
+  std::vector<ImageLook> looks;  ///< of the first networks, or of none
+  bool has_colors = false;
   Vec3 up;                         ///< against gravity
   Vec3 head_start;                 ///< first guess of the head's centre
   Real head_start_sigma_m = 0.05;  ///< standard deviation of its error

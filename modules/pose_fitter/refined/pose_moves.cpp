@@ -48,8 +48,7 @@ PoseMoves::PoseMoves(const Observation& observation, const RefinedParams& params
 
 const SearchEffort& PoseMoves::effort_for(const Observation& observation,
                                           const RefinedParams& params) {
-  return observation.has_colors && !observation.looks.empty() ? params.effort_with_image
-                                                              : params.effort;
+  return observation.looks.empty() ? params.effort : params.effort_with_image;
 }
 
 FitStage PoseMoves::final_stage() const {

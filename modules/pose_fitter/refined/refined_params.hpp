@@ -41,13 +41,11 @@ struct RefinedParams {
   /// Joints against the rays on which the image's networks see them: spread across the ray [m] and
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
-  std::array<double, 2> image_sigma_m = {0.035, 0.025};
-  std::array<double, 2> image_weight = {1.0, 2.0};
-  /// Weight of the first where it looked alone.
-  double lone_image_weight = 2.0;
+  std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
+  std::array<double, 3> image_weight = {1.0, 2.0, 2.0};
   double image_limit_sigmas = 3.0;
-  /// What a body costs whose left the colour image takes for right, as its network does of one
-  /// person in twenty. Tuned.
+  /// What a body costs whose left a network takes for right, as each does of one person in twenty.
+  /// Tuned.
   double image_swap_cost = 6.0;
   /// What a trunk turned against the face or the image costs for each unit of log odds, since
   /// neighbouring points share their errors. Tuned: of 1, 2, 4 and 8 the first two leave bodies

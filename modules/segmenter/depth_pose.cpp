@@ -1,0 +1,112 @@
+#include "modules/segmenter/depth_pose.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "common/human_model/joints.hpp"
+#include "modules/segmenter/depth_picture.hpp"
+#include "modules/segmenter/network.hpp"
+
+// The file in network_files.S.
+extern "C" const char limbcast_depth_pose[];
+
+namespace limbcast::segmenter {
+namespace {
+
+// The network's output: cells of a grid over the picture, and for each joint what a cell tells.
+constexpr int kCells = 32, kCellSide_px = kDepthPictureSide_px / kCells;
+constexpr int kFigures = 5 * kJointCount;
+/// What a unit of the depths it tells is [m].
+constexpr float kDepthUnit_m = 0.25F;
+
+/// What one cell tells of a joint.
+class Cell {
+ public:
+  Cell(const float* output, std::size_t cell, int joint)
+      : figures_(output + cell * kFigures + joint) {}
+
+  float presence_odds() const { return figure(0); }
+  /// From the cell's middle [cells].
+  Eigen::Vector2f offset() const { return {figure(1), figure(2)}; }
+  float behind_middle_m() const { return kDepthUnit_m * figure(3); }
+  float visibility() const { return probability(figure(4)); }
+
+ private:
+  float figure(int kind) const { return figures_[kind * kJointCount]; }
+  const float* figures_;
+};
+
+/// A joint in the picture.
+struct SeenInDepths {
+  Eigen::Vector2f px;
+  float behind_middle_m, presence, visibility;
+};
+
+/// As the cell tells that is surest of it.
+SeenInDepths find_joint(const float* output, int joint) {
+  std::size_t best = 0;
+  for (std::size_t cell = 1; cell < std::size_t{kCells} * kCells; ++cell) {
+    if (Cell(output, cell, joint).presence_odds() > Cell(output, best, joint).presence_odds())
+      best = cell;
+  }
+  const Cell cell(output, best, joint);
+  const std::size_t column = best % kCells, row = best / kCells;
+  const Eigen::Vector2f middle_cell(static_cast<float>(column), static_cast<float>(row));
+  constexpr float kHalf = 0.5F;
+  const Eigen::Vector2f px =
+      ((middle_cell + cell.offset()).array() + kHalf) * static_cast<float>(kCellSide_px) - kHalf;
+  return {px, cell.behind_middle_m(), probability(cell.presence_odds()), cell.visibility()};
+}
+
+}  // namespace
+
+const TfliteFile& DepthPose::file() {
+  static const TfliteFile file = read_tflite(limbcast_depth_pose);
+  return file;
+}
+
+DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
+  if (!params.enabled) return;
+  networks_ = std::make_unique<InstancePool<TfliteNetwork>>([library = params.library] {
+    return std::make_unique<TfliteNetwork>(file(), std::vector<std::string>{"joints"}, library);
+  });
+}
+
+std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Vector3f& head_m,
+                                         const Eigen::Vector3f& down) const {
+  if (!networks_) return std::nullopt;
+  const auto picture = draw_depths(view, head_m, down, params_.picture);
+  if (!picture) return std::nullopt;
+  std::array<SeenInDepths, kJointCount> seen;
+  networks_->with([&](TfliteNetwork& network) {
+    const auto* channels = picture->channels.ptr<float>();
+    std::copy(channels, channels + picture->channels.total() * 3, network.input());
+    network.run();
+    for (int joint = 0; joint < kJointCount; ++joint)
+      seen[static_cast<std::size_t>(joint)] = find_joint(network.output(0), joint);
+    return true;
+  });
+  const Eigen::Matrix3f view_from_picture =
+      view.frame_from_image.transpose() * picture->frame_from_picture;
+  const Eigen::Vector2f origin_px(static_cast<float>(view.origin_u),
+                                  static_cast<float>(view.origin_v));
+  ImagePose pose;
+  std::array<float, kJointCount> depth_m{};
+  for (int i = 0; i < kJointCount; ++i) {
+    const SeenInDepths& joint = seen[static_cast<std::size_t>(i)];
+    const Eigen::Vector3f place_m =
+        view_from_picture * picture->camera.back_project(joint.px.x(), joint.px.y(),
+                                                         picture->middle_m + joint.behind_middle_m);
+    if (!(place_m.z() > 0.0F)) return std::nullopt;
+    depth_m[static_cast<std::size_t>(i)] = place_m.z();
+    pose.joints.push_back({static_cast<Joint>(i), origin_px + view.camera.project(place_m),
+                           joint.presence * joint.visibility, 0.0F});
+    pose.person_score += joint.presence / kJointCount;
+  }
+  const float hips_m = 0.5F * (depth_m[index(Joint::kHipLeft)] + depth_m[index(Joint::kHipRight)]);
+  for (ImageJoint& joint : pose.joints) joint.behind_hips_m = depth_m[index(joint.joint)] - hips_m;
+  return pose;
+}
+
+}  // namespace limbcast::segmenter

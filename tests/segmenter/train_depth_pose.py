@@ -1,0 +1,345 @@
+#!/usr/bin/env python3
+"""Trains limbcast's own network of poses and writes it as a file of TensorFlow Lite.
+
+    train_depth_pose.py OUT.tflite TRAINING.bin... [--check CHECK.bin...]
+
+Files are those of limbcast-write-depth-pictures. After each few epochs it prints what the network sees of the files to
+check by. train_depth_pose.sh makes the pictures and runs it. Needs Debian's python3-torch and python3-flatbuffers. On
+processors with AMX layers are computed in brain floats of 16 bits.
+"""
+import argparse
+import os
+import sys
+import time
+
+import numpy as np
+import torch
+import torch.nn.functional as F
+from torch import nn
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../modules/segmenter/models"))
+import tflite_writer  # noqa: E402
+from tflite_writer import ADD, CONVOLUTION, RELU, RESIZE  # noqa: E402
+
+SIDE, CELLS, JOINTS = 128, 32, 16  # of the picture [px], of the grid that the network tells, of the body
+CELL = SIDE // CELLS
+DEPTH_UNIT_M = 0.25  # of the depths that the network tells; depth_pose.cpp knows it
+PICTURE_UNIT_M = 0.5  # of the picture's depths (DepthPictureParams)
+RECORD = np.dtype([("channels", "<f2", (SIDE, SIDE, 3)), ("joints", "<f4", (JOINTS, 5)), ("px_per_m", "<f4")])
+U, V, BEHIND_M, VISIBLE, TOLD = range(5)  # of a joint in a record; behind the picture's middle
+PRESENCE, OFFSET_U, OFFSET_V, DEPTH, SIGHT = range(5)  # what a cell tells of each joint
+MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
+
+EPOCHS, BATCH, RATE = 12, 32, 2e-3
+
+
+class Stage(nn.Module):
+    """Half the size and, `blocks` times, what two convolutions change."""
+
+    def __init__(self, inputs, outputs, blocks):
+        super().__init__()
+        self.smaller = nn.Conv2d(inputs, outputs, 3, 2)
+        self.norm = nn.BatchNorm2d(outputs)
+        self.blocks = nn.ModuleList(
+            nn.Sequential(nn.Conv2d(outputs, outputs, 3, padding=1), nn.BatchNorm2d(outputs), nn.ReLU(),
+                          nn.Conv2d(outputs, outputs, 3, padding=1), nn.BatchNorm2d(outputs))
+            for _ in range(blocks))
+
+    def forward(self, x):
+        x = F.relu(self.norm(self.smaller(F.pad(x, (0, 1, 0, 1)))))  # TensorFlow's "SAME"
+        for block in self.blocks:
+            x = F.relu(x + block(x))
+        return x
+
+
+class Joined(nn.Module):
+    """A stage's picture with what the coarser one tells."""
+
+    def __init__(self, coarse, fine):
+        super().__init__()
+        self.narrow = nn.Conv2d(coarse, fine, 1)
+        self.conv = nn.Conv2d(fine, fine, 3, padding=1)
+        self.norm = nn.BatchNorm2d(fine)
+
+    def forward(self, coarse, fine):
+        twice = F.interpolate(self.narrow(coarse), scale_factor=2, mode="bilinear", align_corners=False)
+        return F.relu(self.norm(self.conv(fine + twice)))
+
+
+class DepthPose(nn.Module):
+    """Four halvings of the picture and two steps back (a feature pyramid: Lin et al., CVPR 2017)."""
+
+    def __init__(self, channels=(24, 48, 96, 160)):
+        super().__init__()
+        self.stages = nn.ModuleList(Stage(i, o, int(k > 0)) for k, (i, o) in enumerate(zip((3, *channels), channels)))
+        self.joined = nn.ModuleList([Joined(channels[3], channels[2]), Joined(channels[2], channels[1])])
+        self.out = nn.Conv2d(channels[1], JOINTS * 5, 1)
+        with torch.no_grad():
+            self.out.bias.zero_()
+            self.out.bias[:JOINTS] = -3.0  # few cells hold a joint
+
+    def forward(self, x):
+        seen = []
+        for stage in self.stages:
+            x = stage(x)
+            seen.append(x)
+        return self.out(self.joined[1](self.joined[0](seen[3], seen[2]), seen[1]))
+
+
+# Training
+
+
+def read_records(paths):
+    return np.concatenate([np.fromfile(path, RECORD) for path in paths])
+
+
+def tensors_of(records):
+    channels = torch.from_numpy(records["channels"].astype(np.float32)).permute(0, 3, 1, 2)
+    return channels, torch.from_numpy(records["joints"].copy())
+
+
+def mirror_some(x, joints, random):
+    some = torch.from_numpy(random.random(len(x)) < 0.5)
+    mirrored = joints[:, MIRRORED].clone()
+    mirrored[:, :, U] = (SIDE - 1) - mirrored[:, :, U]
+    return torch.where(some[:, None, None, None], x.flip(3), x), torch.where(some[:, None, None], mirrored, joints)
+
+
+def move(x, joints, random):
+    """Turned by 3.4 degrees, 8 % larger, moved by 4 px and 5 cm in depth (standard deviations)."""
+    count = len(x)
+    draw = lambda spread, *shape: torch.from_numpy(random.normal(0, spread, (count, *shape)).astype(np.float32))
+    angle, size, shift, behind_m = draw(0.06), torch.exp(draw(0.08)), draw(4.0, 2), draw(0.05)
+    cos, sin = torch.cos(angle), torch.sin(angle)
+    middle = (SIDE - 1) / 2
+    rows, columns = torch.meshgrid(torch.arange(SIDE).float(), torch.arange(SIDE).float(), indexing="ij")
+    each = lambda values: values[:, None, None]
+    u = (columns[None] - middle - each(shift[:, 0])) / each(size)
+    v = (rows[None] - middle - each(shift[:, 1])) / each(size)
+    from_u, from_v = each(cos) * u - each(sin) * v, each(sin) * u + each(cos) * v
+    grid = (torch.stack([from_u, from_v], 3) + middle + 0.5) / SIDE * 2 - 1
+    x = F.grid_sample(x, grid, mode="nearest", padding_mode="zeros", align_corners=False)
+    x[:, 1] = (x[:, 1] * each(size) + each(behind_m) / PICTURE_UNIT_M) * x[:, 0]
+    du, dv = joints[:, :, U] - middle, joints[:, :, V] - middle
+    joints = joints.clone()
+    joints[:, :, U] = size[:, None] * (cos[:, None] * du + sin[:, None] * dv) + middle + shift[:, :1]
+    joints[:, :, V] = size[:, None] * (-sin[:, None] * du + cos[:, None] * dv) + middle + shift[:, 1:]
+    joints[:, :, BEHIND_M] = joints[:, :, BEHIND_M] * size[:, None] + behind_m[:, None]
+    return x, joints
+
+
+def add_noise(x, random):
+    """Of up to 3 cm."""
+    spread_m = torch.from_numpy((0.03 * random.random((len(x), 1, 1)) ** 2).astype(np.float32))
+    x[:, 1] += torch.randn(len(x), SIDE, SIDE) * spread_m / PICTURE_UNIT_M * x[:, 0]
+
+
+def hide_parts(x, random):
+    """Something stands before a part, or it was not measured; or the image ends above the feet."""
+    for picture in x:
+        if random.random() < 0.35:
+            width, height = random.integers(8, 40, 2)
+            left, top = random.integers(0, SIDE - width), random.integers(0, SIDE - height)
+            part = picture[:, top:top + height, left:left + width]
+            part[:2] = 0
+            part[2] = -1 if random.random() < 0.5 else 0
+        if random.random() < 0.1:
+            picture[:, random.integers(SIDE // 2, SIDE):] = 0
+
+
+def smear_some(x, random):
+    """As depth cameras do that smooth and fill: depths averaged, silhouettes one or two pixels wider."""
+    some = torch.from_numpy(random.random(len(x)) < 0.15)
+    if not some.any():
+        return
+    own, depth, other = x[some, :1], x[some, 1:2], x[some, 2:]
+    for _ in range(int(random.integers(1, 3))):
+        around = F.avg_pool2d(own, 3, 1, 1)
+        mean = F.avg_pool2d(depth * own, 3, 1, 1) / around.clamp(min=1e-6)
+        depth = torch.where(own > 0, 0.5 * (depth + mean), torch.where(around > 0, mean, torch.zeros_like(depth)))
+        own = (around > 0).float()
+    x[some] = torch.cat([own, depth, other * (1 - own)], 1)
+
+
+def varied(x, joints, random):
+    x, joints = mirror_some(x, joints, random)
+    x, joints = move(x, joints, random)
+    add_noise(x, random)
+    hide_parts(x, random)
+    smear_some(x, random)
+    return x, joints
+
+
+def figures_of(output):
+    """What cells tell: PRESENCE, OFFSET_U ... of all joints."""
+    return [output[:, k * JOINTS:(k + 1) * JOINTS] for k in range(5)]
+
+
+def loss_of(output, joints):
+    presence, offset_u, offset_v, depth, sight = figures_of(output)
+    rows, columns = torch.meshgrid(torch.arange(CELLS).float(), torch.arange(CELLS).float(), indexing="ij")
+    du = ((joints[:, :, U] + 0.5) / CELL - 0.5)[:, :, None, None] - columns
+    dv = ((joints[:, :, V] + 0.5) / CELL - 0.5)[:, :, None, None] - rows
+    told = (joints[:, :, TOLD] > 0)[:, :, None, None].float()
+    wanted = torch.exp(-(du ** 2 + dv ** 2) / 2.0) * told
+    # A hidden joint is half a guess.
+    weight = (0.4 + 0.6 * joints[:, :, VISIBLE])[:, :, None, None]
+    surprise = F.binary_cross_entropy_with_logits(presence, wanted, reduction="none") - F.binary_cross_entropy(
+        wanted, wanted, reduction="none")
+    places = (weight * surprise * (1 + 4 * wanted)).sum((2, 3)).mean()
+    near = (wanted > 0.25).float()
+    count = (near * weight).sum() + 1
+
+    def off(figures, truth):
+        return (near * weight * F.smooth_l1_loss(figures, truth.expand_as(figures), reduction="none",
+                                                 beta=0.3)).sum() / count
+
+    depths = (joints[:, :, BEHIND_M] / DEPTH_UNIT_M)[:, :, None, None]
+    visible = joints[:, :, VISIBLE][:, :, None, None].expand_as(sight)
+    sights = (near * F.binary_cross_entropy_with_logits(sight, visible, reduction="none")).sum() / count
+    return 0.5 * places + off(offset_u, du) + off(offset_v, dv) + off(depth, depths) + 0.3 * sights
+
+
+def has_amx():
+    with open("/proc/cpuinfo", encoding="ascii") as file:
+        return "amx_bf16" in file.read()
+
+
+def computed(network, x):
+    with torch.cpu.amp.autocast(enabled=BRAIN_FLOATS, dtype=torch.bfloat16):
+        return network(x.contiguous(memory_format=torch.channels_last)).float()
+
+
+def marks_of(output):
+    """Column and row of each joint, and how far behind the middle [m], as the surest cell tells."""
+    presence, offset_u, offset_v, depth, _ = (figures.flatten(2) for figures in figures_of(output))
+    cell = presence.argmax(2, keepdim=True)
+    at_cell = lambda figures: figures.gather(2, cell)[:, :, 0]
+    u = (cell % CELLS)[:, :, 0] + at_cell(offset_u)
+    v = (cell // CELLS)[:, :, 0] + at_cell(offset_v)
+    return (u + 0.5) * CELL - 0.5, (v + 0.5) * CELL - 0.5, at_cell(depth) * DEPTH_UNIT_M
+
+
+def check(network, path):
+    """Prints the share of visible limbs' joints within 10 cm across the ray, and whose sides are exchanged."""
+    records = np.fromfile(path, RECORD)
+    network.eval()
+    outputs = []
+    with torch.no_grad():
+        for start in range(0, len(records), BATCH):
+            outputs.append(network(tensors_of(records[start:start + BATCH])[0]))
+    network.train()
+    u, v, behind_m = marks_of(torch.cat(outputs))
+    joints, scale = tensors_of(records)[1], torch.from_numpy(records["px_per_m"].copy())[:, None]
+    visible = (joints[:, :, VISIBLE] > 0) & (joints[:, :, TOLD] > 0)
+    visible[:, :4] = False
+
+    def errors_m(order):
+        return torch.hypot(u[:, order] - joints[:, :, U], v[:, order] - joints[:, :, V]) / scale
+
+    as_told, exchanged = errors_m(list(range(JOINTS))), errors_m(MIRRORED)
+    capped = lambda errors: (errors.clamp(max=0.3) * visible).sum(1)
+    depth_m = (behind_m - joints[:, :, BEHIND_M]).abs()[visible].median()
+    print(f"  {os.path.basename(path)}: {len(records)} people, {(as_told[visible] < 0.1).float().mean() * 100:.1f} % "
+          f"within 10 cm, sides exchanged {int((capped(as_told) > capped(exchanged)).sum())}, "
+          f"depth off by {depth_m * 100:.1f} cm", flush=True)
+
+
+BRAIN_FLOATS = has_amx()  # elsewhere they are slow
+
+
+def train(records, checks):
+    torch.manual_seed(1)
+    torch.set_num_threads(os.cpu_count())
+    random = np.random.default_rng(1)
+    network = DepthPose().to(memory_format=torch.channels_last)
+    optimizer = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-4)
+    steps = EPOCHS * (len(records) // BATCH)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=steps + 1, pct_start=0.15)
+    started = time.time()
+    for epoch in range(EPOCHS):
+        order, losses = random.permutation(len(records)), []
+        for start in range(0, len(records) - BATCH + 1, BATCH):
+            x, joints = varied(*tensors_of(records[np.sort(order[start:start + BATCH])]), random)
+            optimizer.zero_grad()
+            loss = loss_of(computed(network, x), joints)
+            loss.backward()
+            optimizer.step()
+            schedule.step()
+            losses.append(loss.item())
+        print(f"epoch {epoch + 1} of {EPOCHS}: loss {np.mean(losses):.3f}, {time.time() - started:.0f} s", flush=True)
+        if (epoch + 1) % 3 == 0 or epoch + 1 == EPOCHS:
+            for path in checks:
+                check(network, path)
+    return network.eval()
+
+
+# Writing
+
+
+def folded(conv, norm=None):
+    """Weights (outputs, rows, columns, inputs) and biases of a convolution with its normalisation."""
+    weights, bias = conv.weight.detach(), conv.bias.detach()
+    if norm is not None:
+        scale = norm.weight.detach() / torch.sqrt(norm.running_var + norm.eps)
+        weights = weights * scale[:, None, None, None]
+        bias = (bias - norm.running_mean) * scale + norm.bias.detach()
+    return weights.permute(0, 2, 3, 1).numpy(), bias.numpy()
+
+
+class Graph(tflite_writer.Graph):
+    def step(self, kind, inputs, shape, options, name=None):
+        output = self.tensor(name or f"step{len(self.steps)}", shape)
+        self.steps.append((kind, inputs, output, options))
+        return output
+
+    def convolution(self, source, conv, norm=None, activation=0, name=None):
+        weights, bias = folded(conv, norm)
+        stride = conv.stride[0]
+        _, rows, columns, _ = self.shape(source)
+        number = len(self.steps)
+        inputs = [source, self.constant(f"weights{number}", weights), self.constant(f"bias{number}", bias)]
+        return self.step(CONVOLUTION, inputs, (1, rows // stride, columns // stride, len(bias)),
+                         {"same": True, "stride": stride, "activation": activation}, name)
+
+    def sum(self, first, second, activation=0):
+        return self.step(ADD, [first, second], self.shape(first), {"activation": activation})
+
+    def stage(self, source, stage):
+        x = self.convolution(source, stage.smaller, stage.norm, RELU)
+        for first, first_norm, _, second, second_norm in stage.blocks:
+            change = self.convolution(self.convolution(x, first, first_norm, RELU), second, second_norm)
+            x = self.sum(x, change, RELU)
+        return x
+
+    def joined(self, coarse, fine, joined):
+        narrow = self.convolution(coarse, joined.narrow)
+        twice = self.step(RESIZE, [narrow], self.shape(fine), {})
+        return self.convolution(self.sum(fine, twice), joined.conv, joined.norm, RELU)
+
+
+def write(network, path):
+    graph = Graph("picture", (1, SIDE, SIDE, 3))
+    seen, x = [], 0
+    for stage in network.stages:
+        x = graph.stage(x, stage)
+        seen.append(x)
+    for joined, fine in zip(network.joined, (seen[2], seen[1])):
+        x = graph.joined(x, fine, joined)
+    joints = graph.convolution(x, network.out, name="joints")
+    tflite_writer.write(graph, [joints], "limbcast DepthPose", path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out")
+    parser.add_argument("training", nargs="+")
+    parser.add_argument("--check", nargs="*", default=[])
+    arguments = parser.parse_args()
+    records = read_records(arguments.training)
+    print(f"{len(records)} pictures", flush=True)
+    write(train(records, arguments.check), arguments.out)
+
+
+if __name__ == "__main__":
+    main()

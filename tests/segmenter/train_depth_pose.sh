@@ -1,0 +1,68 @@
+#!/bin/bash
+# Trains limbcast's own network of poses from nothing: simulates people before each sensor, draws their depths and
+# writes modules/segmenter/models/depth_pose.tflite. Build again afterwards, and fit the confidences of the refined
+# fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch and python3-flatbuffers.
+# Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
+#   SIMULATED_DIR   8000 simulated frames, 3 GB, about half an hour on two cores; sets and pictures that are there stay
+#   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
+#   BIN_DIR         default: build/release/bin
+# Run it after segments or range images changed. Training takes a quarter of an hour on two cores with AMX.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
+source tests/support/simulated_sets.sh
+
+gray=(--color=false) far=(--max-distance-m 5) near=(--max-distance-m 4.5) children=(--child-share 0.2)
+coats=(--coat-share 0.4 --child-share 0.15)
+dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
+few=(--rings 32 --azimuth-step-deg 0.35 --range-sigma-m 0.015)
+simulate n_depth_general general depth 500 20001 "${gray[@]}" "${children[@]}" "${far[@]}"
+simulate n_dense_general general laser 300 20002 "${children[@]}" "${far[@]}" "${dense[@]}"
+simulate n_laser_pointing pointing laser 300 20003 --child-share 0.1 "${far[@]}"
+simulate n_depth_multi multi depth 200 20004 "${gray[@]}" "${children[@]}"
+simulate n_depth_low general depth 150 20005 "${gray[@]}" "${low[@]}"
+simulate n_few_general general laser 150 20006 --max-distance-m 6 "${few[@]}" "${coats[@]}"
+simulate n_stereo_general general stereo 250 20007 "${children[@]}"
+simulate n_depth_pointing pointing depth 500 20011 "${gray[@]}" --child-share 0.1 "${far[@]}"
+simulate n_dense_pointing pointing laser 300 20012 --child-share 0.1 "${far[@]}" "${dense[@]}"
+simulate n_laser_general general laser 300 20013 "${children[@]}" "${far[@]}"
+simulate n_laser_multi multi laser 150 20014 "${children[@]}"
+simulate n_dense_multi multi laser 100 20015 "${children[@]}" "${dense[@]}"
+simulate n_depth_up general depth 100 20016 "${gray[@]}" "${up[@]}"
+simulate n_depth_desk general depth 100 20017 "${gray[@]}" "${desk[@]}"
+simulate n_stereo_pointing pointing stereo 250 20018 --child-share 0.1 "${far[@]}"
+simulate n_depth_sit general depth 300 20021 "${gray[@]}" --posture sit
+simulate n_stereo_sit general stereo 150 20022 --posture sit
+simulate n_depth_general2 general depth 500 20023 "${gray[@]}" "${far[@]}" "${coats[@]}"
+simulate n_depth_pointing2 pointing depth 500 20024 "${gray[@]}" "${far[@]}"
+simulate n_stereo_multi multi stereo 200 20025 --child-share 0.15
+simulate n_stereo_general2 general stereo 400 20026 "${near[@]}"
+simulate n_stereo_pointing2 pointing stereo 400 20027 "${near[@]}"
+simulate n_laser_general2 general laser 300 20028 "${far[@]}" "${coats[@]}"
+simulate n_dense_pointing2 pointing laser 300 20029 "${far[@]}" "${dense[@]}"
+simulate n_few_pointing pointing laser 200 20030 --max-distance-m 6 "${few[@]}"
+simulate n_stereo_low general stereo 150 20031 "${near[@]}" "${low[@]}"
+simulate n_stereo_up general stereo 120 20032 "${near[@]}" "${up[@]}"
+simulate n_stereo_desk general stereo 150 20033 "${desk[@]}"
+simulate n_stereo_high general stereo 120 20034 "${near[@]}" "${high[@]}"
+simulate n_wide_general general laser 150 20035 "${far[@]}" "${few[@]}" --max-elevation-deg 45 "${coats[@]}"
+simulate n_laser_sit general laser 100 20036 --posture sit
+
+pictures() {
+  local out=$simulated/$(basename "$1").bin
+  [ -e "$out" ] && return
+  "$bin/limbcast-write-depth-pictures" "$out.part" "$1"
+  mv "$out.part" "$out"
+}
+training=()
+for folder in "${folders[@]}"; do
+  pictures "$folder"
+  training+=("$folder.bin")
+done
+checks=()
+for set in laser_dev stereo_dev/pointing stereo_dev/general stereo_dev/multi rgbd_pointing; do
+  pictures "$data/$set"
+  checks+=("$simulated/$(basename "$set").bin")
+done
+/usr/bin/python3 tests/segmenter/train_depth_pose.py modules/segmenter/models/depth_pose.tflite "${training[@]}" \
+  --check "${checks[@]}"

@@ -1,0 +1,125 @@
+// Writes what limbcast's own network of poses sees of people whose joints are known, to train it
+// on: limbcast-write-depth-pictures OUT.bin FOLDER... segments each folder's frames (pairs through
+// the reconstructor) and writes a record for each person who is found: train_depth_pose.py reads
+// them. Recorded people are only checked on, so bodies D4 and D5 are written too.
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/human_model/joints.hpp"
+#include "modules/segmenter/depth_picture.hpp"
+#include "modules/segmenter/segmenter.hpp"
+#include "tests/segmenter/recorded_frames.hpp"
+
+namespace {
+
+using namespace limbcast;
+using namespace limbcast::segmenter;
+
+/// Of a person whose head is no farther than this from a segment's [m].
+constexpr float kSamePerson_m = 0.35F;
+
+/// As train_depth_pose.py's RECORD.
+struct TrueJoint {
+  float u_px = 0.0F, v_px = 0.0F, behind_middle_m = 0.0F;
+  float visible = 0.0F, told = 0.0F;  ///< 0 or 1
+};
+struct Record {
+  std::array<Eigen::half, kDepthPictureSide_px * kDepthPictureSide_px * 3> channels;
+  std::array<TrueJoint, kJointCount> joints;
+  float px_per_m = 0.0F;  ///< at the picture's middle
+};
+
+const TruePerson* person_at(const Eigen::Vector3f& head_m, const LoadedFrame& frame) {
+  const TruePerson* nearest = nullptr;
+  float nearest_m = kSamePerson_m;
+  for (const TruePerson& person : frame.persons) {
+    const auto head = person.joints_m.find("head");
+    if (head == person.joints_m.end()) continue;
+    const float distance_m = (head->second - head_m).norm();
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    nearest = &person;
+  }
+  return nearest;
+}
+
+TrueJoint joint_in(const DepthPicture& picture, const TruePerson& person, const std::string& name) {
+  const auto told = person.joints_m.find(name);
+  if (told == person.joints_m.end()) return {};
+  const Eigen::Vector3f place_m = picture.frame_from_picture.transpose() * told->second;
+  constexpr float kLeastDepth_m = 0.1F;
+  if (!(place_m.z() > kLeastDepth_m)) return {};
+  const Eigen::Vector2f px = picture.camera.project(place_m);
+  const auto visible = person.visible.find(name);
+  const bool in_sight = visible != person.visible.end() && visible->second;
+  return {px.x(), px.y(), place_m.z() - picture.middle_m, in_sight ? 1.0F : 0.0F, 1.0F};
+}
+
+std::optional<Record> record_of(const Segment& segment, const LoadedFrame& frame,
+                                const Eigen::Vector3f& down) {
+  if (!segment.valid() || !segment.range_image) return std::nullopt;
+  const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
+  const TruePerson* person = person_at(head_m, frame);
+  if (person == nullptr) return std::nullopt;
+  const auto picture = draw_depths(*segment.range_image, head_m, down, DepthPictureParams{});
+  if (!picture) return std::nullopt;
+  Record record;
+  const auto* channels = picture->channels.ptr<float>();
+  for (std::size_t i = 0; i < record.channels.size(); ++i)
+    record.channels[i] = static_cast<Eigen::half>(channels[i]);
+  for (std::size_t i = 0; i < record.joints.size(); ++i)
+    record.joints[i] = joint_in(*picture, *person, std::string(kJointNames[i]));
+  record.px_per_m = static_cast<float>(picture->camera.fx) / picture->middle_m;
+  return record;
+}
+
+std::vector<Record> records_of(const LoadedFrame& frame, const Segmenter& segmenter) {
+  const Segments segments = segmenter.segment(frame.cloud);
+  std::vector<Record> records;
+  for (const Segment& segment : segments.segments) {
+    const auto record = record_of(segment, frame, segments.stamp.gravity.down);
+    if (record) records.push_back(*record);
+  }
+  return records;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: limbcast-write-depth-pictures OUT.bin FOLDER...\n");
+    return 2;
+  }
+  Params params;
+  params.depth_pose.enabled = false;
+  const Segmenter segmenter(params);
+  std::ofstream file(argv[1], std::ios::binary);
+  for (int k = 2; k < argc; ++k) {
+    const FrameReader reader(argv[k], DepthFrom::kReconstructor);
+    std::vector<std::vector<Record>> frames(reader.paths().size());
+    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+      frames[i] = records_of(reader.read(reader.paths()[i]), segmenter);
+    });
+    std::size_t people = 0;
+    for (const std::vector<Record>& records : frames) {
+      people += records.size();
+      file.write(reinterpret_cast<const char*>(records.data()),
+                 static_cast<std::streamsize>(records.size() * sizeof(Record)));
+    }
+    std::printf("%s: %zu people in %zu frames\n", argv[k], people, frames.size());
+    std::fflush(stdout);
+  }
+  if (!file.flush()) {
+    std::fprintf(stderr, "limbcast-write-depth-pictures: %s: cannot be written\n", argv[1]);
+    return 1;
+  }
+  return 0;
+}
