@@ -7,6 +7,7 @@
 #include "common/human_model/joints.hpp"
 #include "modules/segmenter/depth_picture.hpp"
 #include "modules/segmenter/network.hpp"
+#include "modules/segmenter/range_image.hpp"
 
 // The file in network_files.S.
 extern "C" const char limbcast_depth_pose[];
@@ -78,19 +79,18 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
   if (!networks_) return std::nullopt;
   const auto picture = draw_depths(view, head_m, down, params_.picture);
   if (!picture) return std::nullopt;
-  std::array<SeenInDepths, kJointCount> seen;
-  networks_->with([&](TfliteNetwork& network) {
+  const auto seen = networks_->with([&](TfliteNetwork& network) {
     const auto* channels = picture->channels.ptr<float>();
-    std::copy(channels, channels + picture->channels.total() * 3, network.input());
+    std::copy(channels, channels + picture->channels.total() * picture->channels.channels(),
+              network.input());
     network.run();
+    std::array<SeenInDepths, kJointCount> joints;
     for (int joint = 0; joint < kJointCount; ++joint)
-      seen[static_cast<std::size_t>(joint)] = find_joint(network.output(0), joint);
-    return true;
+      joints[static_cast<std::size_t>(joint)] = find_joint(network.output(0), joint);
+    return joints;
   });
   const Eigen::Matrix3f view_from_picture =
       view.frame_from_image.transpose() * picture->frame_from_picture;
-  const Eigen::Vector2f origin_px(static_cast<float>(view.origin_u),
-                                  static_cast<float>(view.origin_v));
   ImagePose pose;
   std::array<float, kJointCount> depth_m{};
   for (int i = 0; i < kJointCount; ++i) {
@@ -100,8 +100,8 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
                                                          picture->middle_m + joint.behind_middle_m);
     if (!(place_m.z() > 0.0F)) return std::nullopt;
     depth_m[static_cast<std::size_t>(i)] = place_m.z();
-    pose.joints.push_back({static_cast<Joint>(i), origin_px + view.camera.project(place_m),
-                           joint.presence * joint.visibility, 0.0F});
+    pose.joints.push_back(
+        {static_cast<Joint>(i), image_px(view, place_m), joint.presence * joint.visibility, 0.0F});
     pose.person_score += joint.presence / kJointCount;
   }
   const float hips_m = 0.5F * (depth_m[index(Joint::kHipLeft)] + depth_m[index(Joint::kHipRight)]);

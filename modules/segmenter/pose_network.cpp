@@ -103,14 +103,12 @@ std::optional<ImagePose> PoseNetwork::look_at_surface(const Cloud& cloud,
       draw_shaded(points_of(cloud, person, frame_from_picture), *camera, params_.surface);
   ImagePose pose = networks_->with([&](PictureNetwork& network) { return network.see(picture); });
   const Eigen::Matrix3f view_from_picture = view.frame_from_image.transpose() * frame_from_picture;
-  const Eigen::Vector2f origin_px(static_cast<float>(view.origin_u),
-                                  static_cast<float>(view.origin_v));
   for (ImageJoint& joint : pose.joints) {
     const Eigen::Vector3f ray =
         view_from_picture * camera->back_project(joint.px.x(), joint.px.y(), 1.0F);
     // Beside the camera there is no pixel.
     if (!(ray.z() > 0.0F)) return std::nullopt;
-    joint.px = origin_px + view.camera.project(ray);
+    joint.px = image_px(view, ray);
   }
   return pose;
 }

@@ -41,6 +41,12 @@ bool is_skin_colored(const RangeImageSource& source, std::size_t point) {
   return source.skin.log_ratio(source.cloud.colors[point]) > source.min_log_ratio;
 }
 
+Eigen::Vector2f image_px(const RangeImage& view, const Eigen::Vector3f& place) {
+  const Eigen::Vector2f origin_px(static_cast<float>(view.origin_u),
+                                  static_cast<float>(view.origin_v));
+  return origin_px + view.camera.project(place);
+}
+
 void fill_from_camera(const RangeImageSource& source, std::int16_t label, Segment& segment) {
   const Cloud& cloud = source.cloud;
   const std::vector<std::int16_t>& labels = source.labels;

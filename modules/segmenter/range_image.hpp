@@ -30,6 +30,9 @@ Eigen::Matrix3f upright_view(const Eigen::Vector3f& middle_m, const Eigen::Vecto
 std::optional<PinholeCamera> camera_towards(const Eigen::Vector3f& middle_m, float side_m,
                                             int side_px);
 
+/// The pixel that shows a place of the view's optical frame, of the image that it is a part of.
+Eigen::Vector2f image_px(const RangeImage& view, const Eigen::Vector3f& place);
+
 /// Fills points_m, is_skin and range_image of `segment` from an organised cloud: the pixels that
 /// carry `label` and what the sensor saw around them.
 void fill_from_camera(const RangeImageSource& source, std::int16_t label, Segment& segment);

@@ -21,7 +21,6 @@ simulate c_near_pointing pointing stereo 120 712 --min-distance-m 0.8 --max-dist
 simulate c_desk_pointing pointing stereo 80 713 "${desk[@]}"
 simulate c_depth_pointing pointing depth 60 705 --color
 # Without colours the network of poses looks at surfaces.
-dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
 simulate c_dense_pointing pointing laser 120 709 --max-distance-m 5 "${dense[@]}"
 simulate c_laser_pointing pointing laser 120 710 --max-distance-m 5
 simulate c_colorless_pointing pointing depth 80 711 --color=false
@@ -55,11 +54,8 @@ simulate p_colorless_nohuman nohuman depth 120 833 --color=false
 simulate p_colorless_multi multi depth 60 834 --color=false --child-share 0.15
 simulate p_colorless_pointing pointing depth 50 835 --color=false
 # Scanners of few rings: 32 over 45, 90 and 23 degrees, in rooms and in streets, where people wear coats.
-few=(--rings 32 --azimuth-step-deg 0.35 --range-sigma-m 0.015)
-wide=("${few[@]}" --max-elevation-deg 45)
 street=("${few[@]}" --street-share 1 --max-camera-height-m 2.1)
 narrow=("${street[@]}" --max-elevation-deg 11.25)
-coats=(--coat-share 0.4 --child-share 0.15)
 simulate p_few_nohuman nohuman laser 150 841 "${few[@]}"
 simulate p_few_multi multi laser 120 842 --max-distance-m 7 "${few[@]}" "${coats[@]}"
 simulate p_few_pointing pointing laser 60 845 --max-distance-m 6 "${few[@]}"

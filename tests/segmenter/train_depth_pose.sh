@@ -13,9 +13,6 @@ simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}")
 source tests/support/simulated_sets.sh
 
 gray=(--color=false) far=(--max-distance-m 5) near=(--max-distance-m 4.5) children=(--child-share 0.2)
-coats=(--coat-share 0.4 --child-share 0.15)
-dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
-few=(--rings 32 --azimuth-step-deg 0.35 --range-sigma-m 0.015)
 simulate n_depth_general general depth 500 20001 "${gray[@]}" "${children[@]}" "${far[@]}"
 simulate n_dense_general general laser 300 20002 "${children[@]}" "${far[@]}" "${dense[@]}"
 simulate n_laser_pointing pointing laser 300 20003 --child-share 0.1 "${far[@]}"
@@ -45,7 +42,7 @@ simulate n_stereo_low general stereo 150 20031 "${near[@]}" "${low[@]}"
 simulate n_stereo_up general stereo 120 20032 "${near[@]}" "${up[@]}"
 simulate n_stereo_desk general stereo 150 20033 "${desk[@]}"
 simulate n_stereo_high general stereo 120 20034 "${near[@]}" "${high[@]}"
-simulate n_wide_general general laser 150 20035 "${far[@]}" "${few[@]}" --max-elevation-deg 45 "${coats[@]}"
+simulate n_wide_general general laser 150 20035 "${far[@]}" "${wide[@]}" "${coats[@]}"
 simulate n_laser_sit general laser 100 20036 --posture sit
 
 pictures() {

@@ -10,6 +10,12 @@ high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
 up=(--pitch-down-deg -20)
 desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
 
+# Scanners: a dense raster, and 32 rings over a usual and a wide angle; people in coats, children among them.
+dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
+few=(--rings 32 --azimuth-step-deg 0.35 --range-sigma-m 0.015)
+wide=("${few[@]}" --max-elevation-deg 45)
+coats=(--coat-share 0.4 --child-share 0.15)
+
 simulate() {
   local folder=$simulated/$1
   folders+=("$folder")

@@ -45,9 +45,10 @@ bool is_told(const Evidence& evidence) { return evidence.images.front().told; }
 
 /// Where colours are seen the marks of the network of depths, which real depth cameras mislead more
 /// than simulated ones, tell nothing more of a joint.
-ImageEvidence marks_that_count(const Evidence& evidence, std::size_t network) {
+const ImageEvidence& marks_that_count(const Evidence& evidence, std::size_t network) {
+  static const ImageEvidence none;
   const bool in_depths = network == static_cast<std::size_t>(ImageNetwork::kDepthPose);
-  return in_depths && evidence.has_colors ? ImageEvidence{} : evidence.images.at(network);
+  return in_depths && evidence.has_colors ? none : evidence.images.at(network);
 }
 
 /// Mean over the points from `first` to before `end`.
@@ -79,7 +80,7 @@ JointFeatures joint_features(const Evidence& evidence, int joint) {
       on_axis(joint) ? 1.0 : 0.0, on_axis(joint) ? 0.0 : strength(evidence.flip_gap),
       is_told(evidence) ? 1.0 : 0.0;
   for (std::size_t network = 0; network < evidence.images.size(); ++network) {
-    const ImageEvidence image = marks_that_count(evidence, network);
+    const ImageEvidence& image = marks_that_count(evidence, network);
     list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint],
         on_axis(joint) ? 0.0 : image.sides_agreement;
   }
@@ -107,7 +108,7 @@ DirectionFeatures direction_features(const BodyState& body, int side, const Evid
       odd_posture(evidence), std::min(1.0, surface_misfit(evidence)), arm.forwards,
       std::max(0.0, -arm.outwards), is_told(evidence) ? 1.0 : 0.0;
   for (std::size_t network = 0; network < evidence.images.size(); ++network) {
-    const ImageEvidence image = marks_that_count(evidence, network);
+    const ImageEvidence& image = marks_that_count(evidence, network);
     for (int joint = kShoulder + side; joint < kHip; joint += 2)
       list, image.visibility[joint], image.visibility[joint] * image.disagreement[joint];
   }

@@ -55,7 +55,7 @@ struct Observation {
   DepthNoise noise;
 
   FaceEvidence face;             ///< what its face tells
-  std::vector<ImageLook> looks;  ///< of the first networks, or of none
+  std::vector<ImageLook> looks;  ///< of the networks that looked
   bool has_colors = false;
   Vec3 up;                         ///< against gravity
   Vec3 head_start;                 ///< first guess of the head's centre
