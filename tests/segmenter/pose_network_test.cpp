@@ -178,7 +178,10 @@ TEST_F(JointsOfTheDemo, AreToldByTheNetworksThatAreWanted) {
   params.second_pose_network.enabled = false;
   EXPECT_EQ(looked(Segmenter(params).segment(cloud_)), (std::vector<bool>{true, false, true}));
   params.depth_pose.enabled = false;
-  EXPECT_EQ(looked(Segmenter(params).segment(cloud_)), (std::vector<bool>{true}));
+  const Segments by_first = Segmenter(params).segment(cloud_);
+  EXPECT_EQ(looked(by_first), (std::vector<bool>{true}));
+  EXPECT_TRUE(tell_the_same(by_first.segments.at(0).image_poses[0],
+                            segment(cloud_).segments.at(0).image_poses.at(0)));
   params.pose_network.enabled = false;
   EXPECT_TRUE(looked(Segmenter(params).segment(cloud_)).empty());
 }
