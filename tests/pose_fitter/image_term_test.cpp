@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -21,8 +22,14 @@ class ImageTerm : public ::testing::Test {
     look.weight = 2.0;
     look.person_score = 0.9;
     for (int joint = 0; joint < kJointCount; ++joint)
-      look.joints[joint] = {marked_place(body, joint, network).normalized(), 1.0};
+      look.joints[joint] = {marked_place(body, joint, network).normalized(), 1.0,
+                            marked_place(body, joint, network).z() - hips_depth_m(body)};
     return look;
+  }
+  /// It tells depths, as DepthPose does.
+  void tell_depths() {
+    observation_.looks = {look_of(body_, ImageNetwork::kDepthPose)};
+    look().depth_weight = 0.5;
   }
 
   Real cost(const BodyState& body, unsigned parts = kAllParts) const {
@@ -56,6 +63,43 @@ TEST_F(ImageTerm, CostsNothingOnTheRays) { EXPECT_NEAR(cost(body_), 0.0, 1e-9); 
 TEST_F(ImageTerm, CostsNothingAlongARay) {
   const Vec3 ray = marked_place(body_, kWrist, look().network).normalized();
   EXPECT_NEAR(cost(with_wrist_moved(0.3 * ray)), 0.0, 1e-9);
+}
+
+TEST_F(ImageTerm, CostsMoreTheFartherAJointStandsFromTheDepthThatIsTold) {
+  tell_depths();
+  EXPECT_NEAR(cost(body_), 0.0, 1e-9);
+  const Vec3 ray = body_.points[kWrist].normalized();
+  const Real near = cost(with_wrist_moved(0.05 * ray)), far = cost(with_wrist_moved(-0.10 * ray));
+  EXPECT_GT(near, 0.0);
+  EXPECT_GT(far, near);
+  const Real limit = 0.5 * look().depth_weight * std::pow(params_.image_limit_sigmas, 2);
+  EXPECT_LT(cost(with_wrist_moved(2.0 * ray)), limit);
+}
+
+TEST_F(ImageTerm, CostsNothingWhereTheWholeBodyIsFartherThanTheHipsThatTheDepthsAreToldFrom) {
+  tell_depths();
+  BodyState farther = body_;
+  for (Vec3& point : farther.points) point.z() += 0.3;
+  for (int joint = 0; joint < kJointCount; ++joint)
+    look().joints[joint].ray = farther.points[joint].normalized();
+  EXPECT_NEAR(cost(farther), 0.0, 1e-9);
+}
+
+TEST_F(ImageTerm, TellsTheSolverHowFarAwayToGo) {
+  tell_depths();
+  look().weight = 0.0;
+  const BodyState moved_off = with_wrist_moved({0.0, 0.0, 0.02});
+  equations_->clear(true);
+  add_image_term(moved_off, observation_, kAllParts, params_, *equations_);
+  // Wrist nearer or hips farther: both as the cost falls.
+  constexpr Real kStep = 1e-5;
+  for (const int point : {static_cast<int>(kWrist), static_cast<int>(kHip)}) {
+    Step step = Step::Zero();
+    step[3 * point + 2] = kStep;
+    const Real told = equations_->gradient.dot(step);
+    EXPECT_NE(told, 0.0);
+    EXPECT_NEAR(cost(moved(moved_off, step)) - cost(moved_off), told, 1e-2 * std::abs(told));
+  }
 }
 
 TEST_F(ImageTerm, CostsMoreTheFartherAJointStandsOffItsRay) {

@@ -82,6 +82,7 @@ struct ArmSearch::Frame {
         up(body.rotation.col(1)),
         front(body.front()),
         stature(body.stature_m()),
+        hips_m(hips_depth_m(body)),
         sign(side_sign(side)) {}
 
   /// Upper arms do not go far across the body or behind it.
@@ -98,7 +99,7 @@ struct ArmSearch::Frame {
 
   Mat3 body_rotation;
   Vec3 shoulder, neck, outwards, up, front;
-  Real stature, sign;
+  Real stature, hips_m, sign;
   std::vector<SeenArm> seen;  ///< the arm as each network sees it
 };
 
@@ -165,7 +166,7 @@ Real ArmSearch::sample_cost(const Vec3& center, Real radius) {
 ArmSearch::ImageCosts ArmSearch::image_costs(const Frame& arm, int joint, const Vec3& point) const {
   ImageCosts costs{};
   for (std::size_t i = 0; i < arm.seen.size(); ++i)
-    costs[i] = image_cost(arm.seen[i].look, joint + arm.seen[i].side, point, params_);
+    costs[i] = image_cost(arm.seen[i].look, joint + arm.seen[i].side, point, arm.hips_m, params_);
   return costs;
 }
 

@@ -7,6 +7,8 @@
 namespace limbcast::pose_fitter::refined {
 namespace {
 
+Real square(Real value) { return value * value; }
+
 /// What a joint belongs to; the shoulders go with the trunk, as in the search.
 unsigned part_of(int joint) {
   if (joint < kElbow) return bit(Part::kTrunk);
@@ -61,8 +63,31 @@ Real limit_of(ImageNetwork network, const RefinedParams& params) {
 
 /// 0 on the ray, 1 far off it.
 Real share_of_limit(const SeenJoint& seen, const Vec3& point, Real limit_m) {
-  const Real ratio = point.cross(seen.ray).squaredNorm() / (limit_m * limit_m);
+  const Real ratio = point.cross(seen.ray).squaredNorm() / square(limit_m);
   return ratio / (1.0 + ratio);
+}
+
+/// How much farther away than the network tells.
+Real depth_error_m(const SeenJoint& seen, const Vec3& point, Real hips_m) {
+  return point.z() - hips_m - seen.behind_hips_m;
+}
+
+/// 0 as far away as the network tells, 1 far off.
+Real share_of_depth_limit(Real error_m, const RefinedParams& params) {
+  const Real ratio = square(error_m / (params.image_depth_sigma_m * params.image_limit_sigmas));
+  return ratio / (1.0 + ratio);
+}
+
+/// A joint is as far behind the hips as the network tells.
+void add_depth_row(const ImageLook& look, const SeenJoint& seen, int joint, Real error_m,
+                   const RefinedParams& params, NormalEquations& equations) {
+  const Real shrink = 1.0 - share_of_depth_limit(error_m, params);
+  equations.start_row();
+  equations.derivative_of_point(joint, Vec3::UnitZ());
+  for (int side = 0; side < 2; ++side)
+    equations.derivative_of_point(kHip + side, -0.5 * Vec3::UnitZ());
+  equations.add_row(
+      error_m, look.depth_weight * seen.visibility * square(shrink / params.image_depth_sigma_m));
 }
 
 /// Beyond this difference of cost the sides are as clear as they get: two joints far off their
@@ -77,11 +102,12 @@ struct SideCosts {
 SideCosts side_costs(const BodyState& body, const ImageLook& look, unsigned parts,
                      const RefinedParams& params) {
   SideCosts costs;
+  const Real hips_m = hips_depth_m(body);
   for (int joint = 0; joint < kJointCount; ++joint) {
     if ((parts & part_of(joint)) == 0) continue;
     const Vec3 place = marked_place(body, joint, look.network);
-    costs.as_told += image_cost(look, joint, place, params);
-    costs.exchanged += image_cost(look, mirrored(joint), place, params);
+    costs.as_told += image_cost(look, joint, place, hips_m, params);
+    costs.exchanged += image_cost(look, mirrored(joint), place, hips_m, params);
   }
   costs.exchanged += params.image_swap_cost;
   return costs;
@@ -116,6 +142,7 @@ void add_look(const BodyState& body, const ImageLook& look, unsigned parts,
   if (!equations.derivatives()) return;
   const Real sigma_m = params.image_sigma_m[static_cast<std::size_t>(look.network)];
   const Real limit_m = limit_of(look.network, params);
+  const Real hips_m = hips_depth_m(body);
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SeenJoint& seen = look.joints[swapped ? mirrored(joint) : joint];
     if (seen.visibility <= 0.0 || (parts & part_of(joint)) == 0) continue;
@@ -129,6 +156,8 @@ void add_look(const BodyState& body, const ImageLook& look, unsigned parts,
       equations.derivative_of_point(joint, direction);
       equations.add_row(direction.dot(point), information);
     }
+    if (look.depth_weight > 0.0)
+      add_depth_row(look, seen, joint, depth_error_m(seen, point, hips_m), params, equations);
   }
 }
 
@@ -145,12 +174,18 @@ Vec3 marked_place(const BodyState& body, int joint, ImageNetwork network) {
   return body.points[joint] + body.rotation * offset;
 }
 
-Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point,
+Real hips_depth_m(const BodyState& body) {
+  return 0.5 * (body.points[kHip].z() + body.points[kHip + 1].z());
+}
+
+Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real hips_m,
                 const RefinedParams& params) {
   const SeenJoint& seen = look.joints[seen_joint];
   if (seen.visibility <= 0.0) return 0.0;
-  return 0.5 * look.weight * seen.visibility * params.image_limit_sigmas *
-         params.image_limit_sigmas * share_of_limit(seen, point, limit_of(look.network, params));
+  Real cost = look.weight * share_of_limit(seen, point, limit_of(look.network, params));
+  if (look.depth_weight > 0.0)
+    cost += look.depth_weight * share_of_depth_limit(depth_error_m(seen, point, hips_m), params);
+  return 0.5 * seen.visibility * square(params.image_limit_sigmas) * cost;
 }
 
 std::array<ImageEvidence, kImageNetworkCount> image_evidence(const BodyState& body,

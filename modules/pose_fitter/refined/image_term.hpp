@@ -25,9 +25,12 @@ std::array<ImageEvidence, kImageNetworkCount> image_evidence(const BodyState& bo
                                                              const Observation& observation,
                                                              const RefinedParams& params);
 
+/// How far away the middle of the hips is along the optical axis [m].
+Real hips_depth_m(const BodyState& body);
+
 /// What a joint at `point` costs, as far as it stands off the ray on which a network sees
-/// `seen_joint`.
-Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point,
+/// `seen_joint`, and off the depth that it tells, of a body whose hips are `hips_m` away.
+Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real hips_m,
                 const RefinedParams& params);
 
 /// Whether the joints of `parts` and of the trunk fit what a network sees better where it takes
@@ -35,7 +38,7 @@ Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point,
 bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigned parts,
                            const RefinedParams& params);
 
-/// Joints stand on the rays on which the networks see them.
+/// Joints stand on the rays on which the networks see them, as far away as DepthPose tells.
 void add_image_term(const BodyState& body, const Observation& observation, unsigned parts,
                     const RefinedParams& params, NormalEquations& equations);
 

@@ -33,6 +33,7 @@ struct SeenJoint {
 struct ImageLook {
   ImageNetwork network = ImageNetwork::kBlazePose;
   Real weight = 0.0;        ///< of its joints against the surface
+  Real depth_weight = 0.0;  ///< of the depths it tells
   Real person_score = 0.0;  ///< how sure the network is of a person, 0 to 1
   std::array<SeenJoint, kJointCount> joints;
 };
