@@ -37,6 +37,10 @@ enum class Legs { kStanding, kSitting };
 BodyState rest_body(const Vec3& head, const Vec3& up, Real yaw_rad, Real log_stature, Legs legs);
 /// Knees, ankles and toes as in rest_body, hanging on the hips as they are.
 void set_legs(BodyState& body, Legs legs);
+/// The point between a left one and its right one.
+inline Vec3 middle(const BodyState& body, int left_point) {
+  return 0.5 * (body.points[left_point] + body.points[left_point + 1]);
+}
 /// Toes as in rest_body, hanging on the ankles as they are.
 void set_toes(BodyState& body);
 /// The same silhouette seen from the other side: left and right swapped, the front reversed.

@@ -54,10 +54,6 @@ std::optional<Real> depth_of_hips_m(const SeenJoints& joints, const Depths& by_s
   return median(std::move(told_m));
 }
 
-Vec3 middle(const BodyState& body, int left_point) {
-  return 0.5 * (body.points[left_point] + body.points[left_point + 1]);
-}
-
 /// Axis of the body, hands and toes, as shoulders, hips and limbs tell them.
 void complete(BodyState& body) {
   const Vec3 up = (middle(body, kShoulder) - middle(body, kHip)).normalized();

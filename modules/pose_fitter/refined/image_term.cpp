@@ -61,10 +61,15 @@ Real limit_of(ImageNetwork network, const RefinedParams& params) {
   return params.image_sigma_m[static_cast<std::size_t>(network)] * params.image_limit_sigmas;
 }
 
+/// 0 where there is no error, 1 far beyond the limit (Geman-McClure).
+Real saturated(Real square_error, Real limit) {
+  const Real ratio = square_error / square(limit);
+  return ratio / (1.0 + ratio);
+}
+
 /// 0 on the ray, 1 far off it.
 Real share_of_limit(const SeenJoint& seen, const Vec3& point, Real limit_m) {
-  const Real ratio = point.cross(seen.ray).squaredNorm() / square(limit_m);
-  return ratio / (1.0 + ratio);
+  return saturated(point.cross(seen.ray).squaredNorm(), limit_m);
 }
 
 /// How much farther away than the network tells.
@@ -74,8 +79,7 @@ Real depth_error_m(const SeenJoint& seen, const Vec3& point, Real hips_m) {
 
 /// 0 as far away as the network tells, 1 far off.
 Real share_of_depth_limit(Real error_m, const RefinedParams& params) {
-  const Real ratio = square(error_m / (params.image_depth_sigma_m * params.image_limit_sigmas));
-  return ratio / (1.0 + ratio);
+  return saturated(square(error_m), params.image_depth_sigma_m * params.image_limit_sigmas);
 }
 
 /// A joint is as far behind the hips as the network tells.
@@ -174,9 +178,7 @@ Vec3 marked_place(const BodyState& body, int joint, ImageNetwork network) {
   return body.points[joint] + body.rotation * offset;
 }
 
-Real hips_depth_m(const BodyState& body) {
-  return 0.5 * (body.points[kHip].z() + body.points[kHip + 1].z());
-}
+Real hips_depth_m(const BodyState& body) { return middle(body, kHip).z(); }
 
 Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real hips_m,
                 const RefinedParams& params) {

@@ -38,7 +38,8 @@ Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real h
 bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigned parts,
                            const RefinedParams& params);
 
-/// Joints stand on the rays on which the networks see them, as far away as DepthPose tells.
+/// Joints stand on the rays on which the networks see them, as far away as those tell whose
+/// depths have a weight.
 void add_image_term(const BodyState& body, const Observation& observation, unsigned parts,
                     const RefinedParams& params, NormalEquations& equations);
 

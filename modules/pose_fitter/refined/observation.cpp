@@ -161,7 +161,7 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
     ImageLook look;
     look.network = static_cast<ImageNetwork>(network);
     look.weight = params.image_weight.at(network);
-    if (look.network == ImageNetwork::kDepthPose) look.depth_weight = params.image_depth_weight;
+    look.depth_weight = params.image_depth_weight.at(network);
     look.person_score = pose.person_score;
     for (const ImageJoint& joint : pose.joints) {
       const Eigen::Vector2f px = joint.px - origin_px;

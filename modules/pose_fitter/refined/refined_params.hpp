@@ -44,9 +44,10 @@ struct RefinedParams {
   std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
   std::array<double, 3> image_weight = {1.0, 2.0, 2.0};
   double image_limit_sigmas = 3.0;
-  /// How much farther away than the hips DepthPose tells joints to be: spread [m] and weight. Tuned
-  /// on arms of simulated people.
-  double image_depth_sigma_m = 0.05, image_depth_weight = 0.5;
+  /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
+  /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
+  std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.5};
+  double image_depth_sigma_m = 0.05;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;
