@@ -2,12 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <regex>
@@ -22,7 +17,6 @@ namespace {
 
 using limbcast::test::Outcome;
 using limbcast::test::run_program;
-using limbcast::test::shell_quoted;
 using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
@@ -160,88 +154,6 @@ TEST(CalibrateProgram, RefusesPicturesWithoutBoard) {
   EXPECT_FALSE(fs::exists(folder / "calibration.yml"));
 }
 
-TEST(CalibrateProgram, DrawsABoardOfTrueSizeThatIsFound) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_program(
-      "limbcast-calibrate", {"board", "--square-mm", "20", "--output", folder / "board.png"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("220 x 160 mm"));  // 10 x 7 squares and half a one around
-  const cv::Mat image = cv::imread(folder / "board.png", cv::IMREAD_GRAYSCALE);
-  const std::optional<BoardPoints> points = find_board(image, {});
-  ASSERT_TRUE(points);
-  const double square_px = cv::norm(points->pixels[1] - points->pixels[0]);
-  EXPECT_NEAR(square_px, 0.02 / 0.0254 * 300.0, 0.6);
-  std::ifstream file(folder / "board.png", std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  const std::size_t chunk = bytes.find("pHYs");
-  ASSERT_NE(chunk, std::string::npos);
-  std::uint32_t pixels_per_m = 0;
-  for (int i = 0; i < 4; ++i)
-    pixels_per_m = pixels_per_m << 8 | static_cast<unsigned char>(bytes[chunk + 4 + i]);
-  EXPECT_NEAR(pixels_per_m * 0.02, square_px, 0.05);
-}
-
-/// A PDF as poppler shows it.
-class BoardOnPaper : public ::testing::Test {
- protected:
-  Outcome draw(const std::vector<std::string>& options) const {
-    std::vector<std::string> all = {"board", "--output", folder_ / "board.pdf"};
-    all.insert(all.end(), options.begin(), options.end());
-    return run_program("limbcast-calibrate", all);
-  }
-  /// What a command of poppler prints of the file.
-  std::string poppler(const std::string& command, const std::string& arguments) const {
-    const std::string output = folder_ / "poppler.txt";
-    const std::string line =
-        command + " " + shell_quoted(folder_ / "board.pdf") + " " + arguments + " >" + output;
-    EXPECT_EQ(std::system(line.c_str()), 0) << line;
-    std::ifstream file(output, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  cv::Mat printed(int dots_per_inch) const {
-    const std::string page =
-        poppler("pdftoppm", "-singlefile -gray -r " + std::to_string(dots_per_inch));
-    return cv::imdecode(std::vector<char>(page.begin(), page.end()), cv::IMREAD_GRAYSCALE);
-  }
-  TemporaryFolder folder_;
-};
-
-TEST_F(BoardOnPaper, HasTheSheetsSizeAndTrueSquaresAndIsFound) {
-  const Outcome outcome = draw({});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(poppler("pdfinfo", ""), ::testing::ContainsRegex("Page size: +841.89 x 595.2[78]"));
-  const int dots_per_inch = 150;
-  const std::optional<BoardPoints> points = find_board(printed(dots_per_inch), {});
-  ASSERT_TRUE(points);
-  // The diagonal of 8 x 5 squares. Poppler puts the edges of a picture on whole pixels of 0.17 mm.
-  const double diagonal_mm =
-      cv::norm(points->pixels.back() - points->pixels.front()) * 25.4 / dots_per_inch;
-  EXPECT_NEAR(diagonal_mm, 25.0 * std::hypot(8.0, 5.0), 0.2);
-  EXPECT_THAT(poppler("pdftotext", "-"), HasSubstr("--columns 9 --rows 6, squares of 25 mm"));
-}
-
-TEST_F(BoardOnPaper, MayBeOfOtherKindsAndSizes) {
-  const Outcome outcome = draw({"--board", "charuco", "--columns", "6", "--rows", "8",
-                                "--square-mm", "35", "--paper", "a3"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(poppler("pdfinfo", ""), ::testing::ContainsRegex("Page size: +841.89 x 1190.5[45]"));
-  Board board;
-  board.kind = BoardKind::kCharuco;
-  board.columns = 6;
-  board.rows = 8;
-  board.square_m = 0.035;
-  board.marker_m = 0.7 * board.square_m;
-  const std::optional<BoardPoints> points = find_board(printed(75), board);
-  ASSERT_TRUE(points);
-  EXPECT_EQ(static_cast<int>(points->ids.size()), board.num_points());
-}
-
-TEST_F(BoardOnPaper, MustFitOnTheSheet) {
-  const Outcome outcome = draw({"--square-mm", "30", "--paper", "letter"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("330 x 240 mm, larger than the sheet of 216 x 279 mm"));
-}
-
 TEST(CalibrateProgram, ChecksACalibrationOnABoard) {
   const TemporaryFolder folder;
   const Board board;
@@ -271,142 +183,6 @@ TEST(CalibrateProgram, ChecksACalibrationOnABoard) {
                                                               "--calibration", out / "long.yml"});
   EXPECT_EQ(too_long.exit_code, 1);
   EXPECT_THAT(too_long.out, ::testing::ContainsRegex("lengths on the board are off by .(9|10)"));
-}
-
-TEST(CalibrateProgram, FindsTheMountingOfARecording) {
-  const std::string source = std::string(LIMBCAST_DATA_DIR) + "/stereo_dev/sequence";
-  if (!fs::exists(source)) GTEST_SKIP() << source << " is absent";
-  const TemporaryFolder out;
-  const Outcome outcome =
-      run_program("limbcast-calibrate",
-                  {"mounting", "--source", source, "--calibration", source + "/calibration.yml",
-                   "--pairs", "4", "--output", out / "mounted.yml"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  const Mounting mounting = read_stereo_calibration(out / "mounted.yml").mounting;
-  // The truth of the recording, to half a degree and 3 cm.
-  ASSERT_TRUE(mounting.down && mounting.sensor_height_m);
-  EXPECT_GT(mounting.down->dot(Eigen::Vector3d(0.006434, 0.997543, 0.069756)), std::cos(0.0087));
-  EXPECT_NEAR(*mounting.sensor_height_m, 1.25, 0.03);
-}
-
-/// A depth camera 1.3 m above the floor, tipped down by 10 degrees, that stands still.
-std::vector<std::string> simulated_depth_camera(const std::string& option,
-                                                const std::string& path) {
-  return {"--sensor",
-          "depth",
-          "--set",
-          "general",
-          "--frames",
-          "4",
-          "--seed",
-          "4711",
-          "--min-camera-height-m",
-          "1.3",
-          "--max-camera-height-m",
-          "1.3",
-          "--pitch-down-deg",
-          "10",
-          "--pitch-sigma-deg",
-          "0",
-          option,
-          path};
-}
-
-void expect_mounting_of_depth_camera(const std::string& calibration) {
-  const Mounting mounting = read_depth_calibration(calibration).mounting;
-  ASSERT_TRUE(mounting.down && mounting.sensor_height_m);
-  EXPECT_NEAR(mounting.down->z(), std::sin(0.1745), 0.009);
-  EXPECT_NEAR(*mounting.sensor_height_m, 1.3, 0.03);
-}
-
-TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasFolder) {
-  const TemporaryFolder out;
-  const std::string frames = out / "frames";
-  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
-            0);
-  const Outcome outcome = run_program(
-      "limbcast-calibrate", {"mounting", "--source", frames, "--calibration",
-                             frames + "/calibration.yml", "--output", out / "mounted.yml"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("4 of 4 frames show the ground"));
-  expect_mounting_of_depth_camera(out / "mounted.yml");
-}
-
-TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasLogWithItsOwnCalibration) {
-  const TemporaryFolder out;
-  ASSERT_EQ(
-      run_program("limbcast-simulate", simulated_depth_camera("--log", out / "in.log")).exit_code,
-      0);
-  const Outcome outcome = run_program("limbcast-calibrate", {"mounting", "--source", out / "in.log",
-                                                             "--output", out / "mounted.yml"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  expect_mounting_of_depth_camera(out / "mounted.yml");
-}
-
-/// Makes the depths of a folder those of a camera of half the size in the colour camera's place.
-void halve_depth_camera(const std::string& folder) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string path = entry.path();
-    if (path.find("_depth.png") == std::string::npos) continue;
-    cv::Mat half;
-    cv::resize(cv::imread(path, cv::IMREAD_UNCHANGED), half, {}, 0.5, 0.5, cv::INTER_NEAREST);
-    cv::imwrite(path, half);
-  }
-  DepthCalibration calibration = read_depth_calibration(folder + "/calibration.yml");
-  LensCalibration& lens = calibration.depth_camera.emplace().lens;
-  lens = calibration.color;
-  lens.camera.width /= 2;
-  lens.camera.height /= 2;
-  for (double* value : {&lens.camera.fx, &lens.camera.fy, &lens.camera.cx, &lens.camera.cy})
-    *value *= 0.5;
-  write_depth_calibration(folder + "/calibration.yml", calibration);
-}
-
-TEST(CalibrateProgram, FindsTheMountingOfADepthCameraWithALensOfItsOwn) {
-  const TemporaryFolder out;
-  const std::string frames = out / "frames";
-  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
-            0);
-  halve_depth_camera(frames);
-  const Outcome outcome = run_program(
-      "limbcast-calibrate", {"mounting", "--source", frames, "--calibration",
-                             frames + "/calibration.yml", "--output", out / "mounted.yml"});
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  expect_mounting_of_depth_camera(out / "mounted.yml");
-  EXPECT_TRUE(read_depth_calibration(out / "mounted.yml").depth_camera);
-}
-
-TEST(CalibrateProgram, SaysWhichKindOfCalibrationItWantsForAMounting) {
-  const TemporaryFolder out;
-  const std::string frames = out / "frames";
-  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
-            0);
-  write_stereo_calibration(out / "stereo.yml", true_cameras());
-  const Outcome outcome =
-      run_program("limbcast-calibrate", {"mounting", "--source", frames, "--calibration",
-                                         out / "stereo.yml", "--output", out / "mounted.yml"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("give a depth camera's"));
-}
-
-TEST(CalibrateProgram, WritesNoMountingWhereNoFileIsNamedForIt) {
-  const TemporaryFolder folder;
-  write_stereo_calibration(folder / "camera.yml", true_cameras());
-  const Outcome outcome =
-      run_program("limbcast-calibrate",
-                  {"mounting", "--source", folder.path(), "--calibration", folder / "camera.yml"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.err, "limbcast-calibrate: --output is missing; see --help\n");
-}
-
-TEST(CalibrateProgram, FindsAMountingOfOneKindOfCamera) {
-  const TemporaryFolder out;
-  const Outcome outcome =
-      run_program("limbcast-calibrate", {"mounting", "--source", "/dev/video0", "--source-right",
-                                         "/dev/video2", "--source-depth", "/dev/video4",
-                                         "--calibration", "c.yml", "--output", out / "c.yml"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--source-depth of a depth camera; give one of them"));
 }
 
 TEST(CalibrateProgram, ExplainsWrongUsage) {
@@ -442,12 +218,6 @@ TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
                  "c.odt: no picture format has this ending; use .png");
   expect_refusal({"mounting", "--output", "/none/c.yml"},
                  "/none/c.yml: there is no folder /none; make it or choose another --output");
-}
-
-TEST(CalibrateProgram, RefusesToDrawABoardIntoAFolderThatIsMissing) {
-  const Outcome outcome = run_program("limbcast-calibrate", {"board", "--output", "/none/b.pdf"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("there is no folder /none"));
 }
 
 }  // namespace
