@@ -15,9 +15,11 @@ extern "C" const char limbcast_depth_pose[];
 namespace limbcast::segmenter {
 namespace {
 
-// The network's output: cells of a grid over the picture, and for each joint what a cell tells.
+// The network's output: cells of a grid over the picture, what a cell tells of each joint, and a
+// last figure whose mean over all cells is the log odds that a person is there.
 constexpr int kCells = 32, kCellSide_px = kDepthPictureSide_px / kCells;
-constexpr int kFigures = 5 * kJointCount;
+constexpr std::size_t kCellCount = std::size_t{kCells} * kCells;
+constexpr int kPersonFigure = 5 * kJointCount, kFigures = kPersonFigure + 1;
 /// What a unit of the depths it tells is [m].
 constexpr float kDepthUnit_m = 0.25F;
 
@@ -47,7 +49,7 @@ struct SeenInDepths {
 /// As the cell tells that is surest of it.
 SeenInDepths find_joint(const float* output, int joint) {
   std::size_t best = 0;
-  for (std::size_t cell = 1; cell < std::size_t{kCells} * kCells; ++cell) {
+  for (std::size_t cell = 1; cell < kCellCount; ++cell) {
     if (Cell(output, cell, joint).presence_odds() > Cell(output, best, joint).presence_odds())
       best = cell;
   }
@@ -58,6 +60,27 @@ SeenInDepths find_joint(const float* output, int joint) {
   const Eigen::Vector2f px =
       ((middle_cell + cell.offset()).array() + kHalf) * static_cast<float>(kCellSide_px) - kHalf;
   return {px, cell.behind_middle_m(), probability(cell.presence_odds()), cell.visibility()};
+}
+
+float person_score(const float* output) {
+  float sum = 0.0F;
+  for (std::size_t cell = 0; cell < kCellCount; ++cell)
+    sum += output[cell * kFigures + kPersonFigure];
+  return probability(sum / static_cast<float>(kCellCount));
+}
+
+/// What the network sees in a picture.
+struct SeenPerson {
+  float score = 0.0F;
+  std::array<SeenInDepths, kJointCount> joints;
+};
+
+SeenPerson read_output(const float* output) {
+  SeenPerson seen;
+  seen.score = person_score(output);
+  for (int joint = 0; joint < kJointCount; ++joint)
+    seen.joints[static_cast<std::size_t>(joint)] = find_joint(output, joint);
+  return seen;
 }
 
 }  // namespace
@@ -84,17 +107,15 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
     std::copy(channels, channels + picture->channels.total() * picture->channels.channels(),
               network.input());
     network.run();
-    std::array<SeenInDepths, kJointCount> joints;
-    for (int joint = 0; joint < kJointCount; ++joint)
-      joints[static_cast<std::size_t>(joint)] = find_joint(network.output(0), joint);
-    return joints;
+    return read_output(network.output(0));
   });
   const Eigen::Matrix3f view_from_picture =
       view.frame_from_image.transpose() * picture->frame_from_picture;
   ImagePose pose;
+  pose.person_score = seen.score;
   std::array<float, kJointCount> depth_m{};
   for (int i = 0; i < kJointCount; ++i) {
-    const SeenInDepths& joint = seen[static_cast<std::size_t>(i)];
+    const SeenInDepths& joint = seen.joints[static_cast<std::size_t>(i)];
     const Eigen::Vector3f place_m =
         view_from_picture * picture->camera.back_project(joint.px.x(), joint.px.y(),
                                                          picture->middle_m + joint.behind_middle_m);
@@ -102,7 +123,6 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
     depth_m[static_cast<std::size_t>(i)] = place_m.z();
     pose.joints.push_back(
         {static_cast<Joint>(i), image_px(view, place_m), joint.presence * joint.visibility, 0.0F});
-    pose.person_score += joint.presence / kJointCount;
   }
   const float hips_m = 0.5F * (depth_m[index(Joint::kHipLeft)] + depth_m[index(Joint::kHipRight)]);
   for (ImageJoint& joint : pose.joints) joint.behind_hips_m = depth_m[index(joint.joint)] - hips_m;

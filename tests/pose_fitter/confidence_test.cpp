@@ -65,6 +65,16 @@ TEST_F(Confidence, OfADirectionFallsWhereTheImageShowsTheHandElsewhere) {
   EXPECT_EQ(of_direction(), of_one_network);
 }
 
+TEST_F(Confidence, OfADirectionRisesWhereTheDepthsShowThatTheArmPointsSo) {
+  evidence_.arms[0].off_seen_axis_rad = M_PI / 2;
+  const Real elsewhere = of_direction();
+  evidence_.arms[0].off_seen_axis_rad = M_PI / 12;
+  const Real near = of_direction();
+  evidence_.arms[0].off_seen_axis_rad = 0.0;
+  EXPECT_GT(near, elsewhere);
+  EXPECT_GT(of_direction(), near);
+}
+
 TEST_F(Confidence, OfADirectionTakesTheSameGapForMoreWithAChild) {
   const Real before = of_direction();
   body_.log_stature = std::log(0.7);  // 1.2 m
@@ -219,7 +229,7 @@ TEST_F(ToldDirections, IncludeTheOtherArmWhereTheMoreRaisedOneIsSurelyWrong) {
 
 TEST_F(ToldDirections, AreNoneOfABodyThatMayFaceTheOtherWay) {
   evidence_.flip_gap = 0.0;
-  for (ImageEvidence& image : evidence_.images) image.sides_agreement = 0.0;
+  for (ImageEvidence& image : evidence_.images) image.sides_agreement = -0.5;
   EXPECT_TRUE(sides().empty());
 }
 
@@ -257,6 +267,8 @@ FittedBody doubtful_person(Real least, Real most) {
   return fitted;
 }
 
+constexpr DepthNoise kOfACamera{0.005F, 0.002F}, kOfAScanner{0.005F, 0.0F};
+
 bool told_alone(const FittedBody& fitted) {
   const auto told = assess(fitted);
   return told && !told->needs_company;
@@ -275,33 +287,42 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
-  FittedBody fitted = doubtful_person(0.76, 0.85);
-  fitted.observation.noise.quadratic_per_m = 0.002F;
+  FittedBody fitted = doubtful_person(0.86, 0.95);
+  fitted.observation.noise = kOfACamera;
   EXPECT_TRUE(told_alone(fitted));
-  fitted.observation.noise.quadratic_per_m = 0.0F;
+  fitted.observation.noise = kOfAScanner;
   EXPECT_FALSE(told_alone(fitted));
+  EXPECT_FALSE(assess(fitted)) << "nor beside somebody";
 }
 
 TEST(PersonConfidence, MayBeLowerSoNearToACameraThatLegsAreOutOfSight) {
   FittedBody fitted = doubtful_person(0.5, 0.75);
-  fitted.observation.noise.quadratic_per_m = 0.002F;
+  fitted.observation.noise = kOfACamera;
   EXPECT_FALSE(told_alone(fitted));
   fitted.body.points[kHead].z() = 1.2;
   EXPECT_TRUE(told_alone(fitted));
-  fitted.observation.noise.quadratic_per_m = 0.0F;
+  fitted.observation.noise = kOfAScanner;
   EXPECT_FALSE(told_alone(fitted)) << "of a scanner";
 }
 
 TEST(PersonConfidence, MayBeLowerInCompany) {
-  const auto doubtful = assess(doubtful_person(0.35, 0.5));
+  const auto of_a_camera = [](Real least, Real most) {
+    FittedBody fitted = doubtful_person(least, most);
+    fitted.observation.noise = kOfACamera;
+    return assess(fitted);
+  };
+  const auto doubtful = of_a_camera(0.35, 0.5);
   ASSERT_TRUE(doubtful);
   EXPECT_TRUE(doubtful->needs_company);
-  EXPECT_FALSE(assess(doubtful_person(0.05, 0.35)));
+  EXPECT_FALSE(of_a_camera(0.05, 0.35));
 }
 
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
   FittedBody doubtful = doubtful_person(0.5, 0.75), sure = standing_person();
-  for (FittedBody* fitted : {&doubtful, &sure}) fitted->evidence.sigma_m[kHead] = 10.0;
+  for (FittedBody* fitted : {&doubtful, &sure}) {
+    fitted->observation.noise = kOfACamera;
+    fitted->evidence.sigma_m[kHead] = 10.0;
+  }
   EXPECT_FALSE(assess(doubtful));
   const auto told = assess(sure);
   ASSERT_TRUE(told);

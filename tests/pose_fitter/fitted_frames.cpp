@@ -29,8 +29,16 @@ segmenter::Params without_image(segmenter::Params params) {
   return params;
 }
 
+segmenter::Params without_depths(segmenter::Params params) {
+  params.depth_pose.enabled = false;
+  return params;
+}
+
 /// Of four frames one is seen without colour's help, as a camera without colour would see it.
 bool is_without_image(std::size_t frame) { return frame % 4 == 3; }
+
+/// Of eight frames one is seen without the network of depths, as where it is switched off.
+bool is_without_depths(std::size_t frame) { return frame % 8 == 5; }
 
 /// A scan's noise is what the user says, or limbcast-laser-scanner's default [m], and outdoors no
 /// plane may be found to be the ground: what is told with a scan differs from frame to frame.
@@ -65,15 +73,19 @@ FittedFrame fit_frame(const LoadedFrame& frame, std::vector<BodyPose> truth,
 void fit_frames(const std::string& folder, const segmenter::Params& params,
                 const std::function<void(FittedFrame&&, std::size_t)>& take) {
   const segmenter::FrameReader reader(folder, segmenter::DepthFrom::kReconstructor);
-  const segmenter::Segmenter segmenter(params), colorless(without_image(params));
+  const segmenter::Segmenter segmenter(params), colorless(without_image(params)),
+      without_depth_pose(without_depths(params));
+  const auto segmenter_of = [&](std::size_t frame) -> const segmenter::Segmenter& {
+    if (is_without_depths(frame)) return without_depth_pose;
+    return is_without_image(frame) ? colorless : segmenter;
+  };
   std::vector<std::optional<FittedFrame>> frames(reader.paths().size());
   tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
     const std::string& path = reader.paths()[i];
     LoadedFrame frame = reader.read(path);
     vary_stamp(i, frame.cloud);
     if (!frame.labelled || frame.for_checking()) return;
-    frames[i] = fit_frame(frame, read_ground_truth(path + "_gt.json").persons,
-                          is_without_image(i) ? colorless : segmenter);
+    frames[i] = fit_frame(frame, read_ground_truth(path + "_gt.json").persons, segmenter_of(i));
   });
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i]) take(std::move(*frames[i]), i);

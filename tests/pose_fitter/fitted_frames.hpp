@@ -22,7 +22,8 @@ struct FittedFrame {
 
 /// Runs the chain on each labelled frame of a folder that shows neither body D4 nor D5 (they are
 /// for checking) and calls `take(frame, number)` for each, in the frames' order. Every fourth is
-/// seen without the image's network, as by a sensor without colour.
+/// seen without the image's networks, as by a sensor without colour, every eighth without that of
+/// depths.
 void fit_frames(const std::string& folder, const segmenter::Params& params,
                 const std::function<void(FittedFrame&&, std::size_t)>& take);
 

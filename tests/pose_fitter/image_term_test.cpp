@@ -205,6 +205,22 @@ TEST_F(ImageTerm, TellsWhatTheNetworkOfDepthsSeesByItself) {
     EXPECT_EQ(marked_place(body_, joint, ImageNetwork::kDepthPose), body_.points[joint]);
 }
 
+TEST_F(ImageTerm, TellsWhereAnArmPointsByTheNetworkThatTellsDepths) {
+  EXPECT_FALSE(seen_arm_axis(body_, observation_, 0, params_)) << "none tells depths";
+  const BodyState seen = with_wrist_moved({0.2, -0.3, -0.4});
+  tell_depths();
+  observation_.looks.insert(observation_.looks.begin(), look_of(body_, ImageNetwork::kBlazePose));
+  observation_.looks.back() = look_of(seen, ImageNetwork::kDepthPose);
+  observation_.looks.back().depth_weight = 0.5;
+  const Vec3 axis = seen.points[kWrist] - seen.points[kShoulder];
+  EXPECT_LT((seen_arm_axis(body_, observation_, 0, params_).value() - axis).norm(), 1e-9);
+  auto& joints = observation_.looks.back().joints;
+  for (int joint = kShoulder; joint < kJointCount; joint += 2)
+    std::swap(joints[joint], joints[joint + 1]);
+  EXPECT_LT((seen_arm_axis(body_, observation_, 0, params_).value() - axis).norm(), 1e-9)
+      << "it takes left for right";
+}
+
 TEST_F(ImageTerm, TellsNothingWithoutAnImage) {
   observation_.looks.clear();
   EXPECT_EQ(cost(with_wrist_moved({0.5, 0.0, 0.0})), 0.0);

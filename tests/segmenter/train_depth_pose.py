@@ -25,9 +25,11 @@ SIDE, CELLS, JOINTS = 128, 32, 16  # of the picture [px], of the grid that the n
 CELL = SIDE // CELLS
 DEPTH_UNIT_M = 0.25  # of the depths that the network tells; depth_pose.cpp knows it
 PICTURE_UNIT_M = 0.5  # of the picture's depths (DepthPictureParams)
-RECORD = np.dtype([("channels", "<f2", (SIDE, SIDE, 3)), ("joints", "<f4", (JOINTS, 5)), ("px_per_m", "<f4")])
+RECORD = np.dtype([("channels", "<f2", (SIDE, SIDE, 3)), ("joints", "<f4", (JOINTS, 5)), ("px_per_m", "<f4"),
+                   ("is_person", "<f4")])
 U, V, BEHIND_M, VISIBLE, TOLD = range(5)  # of a joint in a record; behind the picture's middle
 PRESENCE, OFFSET_U, OFFSET_V, DEPTH, SIGHT = range(5)  # what a cell tells of each joint
+PERSON = JOINTS * 5  # the last figure of a cell: its mean over all cells is the log odds that a person is there
 MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
 
 EPOCHS, BATCH, RATE = 12, 32, 2e-3
@@ -73,7 +75,7 @@ class DepthPose(nn.Module):
         super().__init__()
         self.stages = nn.ModuleList(Stage(i, o, int(k > 0)) for k, (i, o) in enumerate(zip((3, *channels), channels)))
         self.joined = nn.ModuleList([Joined(channels[3], channels[2]), Joined(channels[2], channels[1])])
-        self.out = nn.Conv2d(channels[1], JOINTS * 5, 1)
+        self.out = nn.Conv2d(channels[1], JOINTS * 5 + 1, 1)
         with torch.no_grad():
             self.out.bias.zero_()
             self.out.bias[:JOINTS] = -3.0  # few cells hold a joint
@@ -95,7 +97,7 @@ def read_records(paths):
 
 def tensors_of(records):
     channels = torch.from_numpy(records["channels"].astype(np.float32)).permute(0, 3, 1, 2)
-    return channels, torch.from_numpy(records["joints"].copy())
+    return channels, torch.from_numpy(records["joints"].copy()), torch.from_numpy(records["is_person"].copy())
 
 
 def mirror_some(x, joints, random):
@@ -175,7 +177,11 @@ def figures_of(output):
     return [output[:, k * JOINTS:(k + 1) * JOINTS] for k in range(5)]
 
 
-def loss_of(output, joints):
+def person_odds(output):
+    return output[:, PERSON].mean((1, 2))
+
+
+def loss_of(output, joints, is_person):
     presence, offset_u, offset_v, depth, sight = figures_of(output)
     rows, columns = torch.meshgrid(torch.arange(CELLS).float(), torch.arange(CELLS).float(), indexing="ij")
     du = ((joints[:, :, U] + 0.5) / CELL - 0.5)[:, :, None, None] - columns
@@ -183,10 +189,10 @@ def loss_of(output, joints):
     told = (joints[:, :, TOLD] > 0)[:, :, None, None].float()
     wanted = torch.exp(-(du ** 2 + dv ** 2) / 2.0) * told
     # A hidden joint is half a guess.
-    weight = (0.4 + 0.6 * joints[:, :, VISIBLE])[:, :, None, None]
+    weight = ((0.4 + 0.6 * joints[:, :, VISIBLE]) * is_person[:, None])[:, :, None, None]
     surprise = F.binary_cross_entropy_with_logits(presence, wanted, reduction="none") - F.binary_cross_entropy(
         wanted, wanted, reduction="none")
-    places = (weight * surprise * (1 + 4 * wanted)).sum((2, 3)).mean()
+    places = (weight * surprise * (1 + 4 * wanted)).sum((2, 3)).mean(1).sum() / (is_person.sum() + 1)
     near = (wanted > 0.25).float()
     count = (near * weight).sum() + 1
 
@@ -197,7 +203,8 @@ def loss_of(output, joints):
     depths = (joints[:, :, BEHIND_M] / DEPTH_UNIT_M)[:, :, None, None]
     visible = joints[:, :, VISIBLE][:, :, None, None].expand_as(sight)
     sights = (near * F.binary_cross_entropy_with_logits(sight, visible, reduction="none")).sum() / count
-    return 0.5 * places + off(offset_u, du) + off(offset_v, dv) + off(depth, depths) + 0.3 * sights
+    persons = F.binary_cross_entropy_with_logits(person_odds(output), is_person)
+    return 0.5 * places + off(offset_u, du) + off(offset_v, dv) + off(depth, depths) + 0.3 * sights + persons
 
 
 def has_amx():
@@ -221,7 +228,8 @@ def marks_of(output):
 
 
 def check(network, path):
-    """Prints the share of visible limbs' joints within 10 cm across the ray, and whose sides are exchanged."""
+    """Prints the share of visible limbs' joints within 10 cm across the ray, whose sides are exchanged, and how many
+    people and things are taken for people."""
     records = np.fromfile(path, RECORD)
     network.eval()
     outputs = []
@@ -230,6 +238,8 @@ def check(network, path):
             outputs.append(network(tensors_of(records[start:start + BATCH])[0]))
     network.train()
     u, v, behind_m = marks_of(torch.cat(outputs))
+    taken = (person_odds(torch.cat(outputs)) > 0).numpy()
+    is_person = records["is_person"] > 0
     joints, scale = tensors_of(records)[1], torch.from_numpy(records["px_per_m"].copy())[:, None]
     visible = (joints[:, :, VISIBLE] > 0) & (joints[:, :, TOLD] > 0)
     visible[:, :4] = False
@@ -240,9 +250,10 @@ def check(network, path):
     as_told, exchanged = errors_m(list(range(JOINTS))), errors_m(MIRRORED)
     capped = lambda errors: (errors.clamp(max=0.3) * visible).sum(1)
     depth_m = (behind_m - joints[:, :, BEHIND_M]).abs()[visible].median()
-    print(f"  {os.path.basename(path)}: {len(records)} people, {(as_told[visible] < 0.1).float().mean() * 100:.1f} % "
-          f"within 10 cm, sides exchanged {int((capped(as_told) > capped(exchanged)).sum())}, "
-          f"depth off by {depth_m * 100:.1f} cm", flush=True)
+    print(f"  {os.path.basename(path)}: {(as_told[visible] < 0.1).float().mean() * 100:.1f} % within 10 cm, "
+          f"sides exchanged {int((capped(as_told) > capped(exchanged)).sum())}, depth off by {depth_m * 100:.1f} cm, "
+          f"taken for people {taken[is_person].sum()} of {is_person.sum()} people and {taken[~is_person].sum()} of "
+          f"{(~is_person).sum()} things", flush=True)
 
 
 BRAIN_FLOATS = has_amx()  # elsewhere they are slow
@@ -260,9 +271,10 @@ def train(records, checks):
     for epoch in range(EPOCHS):
         order, losses = random.permutation(len(records)), []
         for start in range(0, len(records) - BATCH + 1, BATCH):
-            x, joints = varied(*tensors_of(records[np.sort(order[start:start + BATCH])]), random)
+            x, joints, is_person = tensors_of(records[np.sort(order[start:start + BATCH])])
+            x, joints = varied(x, joints, random)
             optimizer.zero_grad()
-            loss = loss_of(computed(network, x), joints)
+            loss = loss_of(computed(network, x), joints, is_person)
             loss.backward()
             optimizer.step()
             schedule.step()

@@ -1,12 +1,13 @@
 #!/bin/bash
-# Trains limbcast's own network of poses from nothing: simulates people before each sensor, draws their depths and
-# writes modules/segmenter/models/depth_pose.tflite. Build again afterwards, and fit the confidences of the refined
-# fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch and python3-flatbuffers.
+# Trains limbcast's own network of poses from nothing: simulates people before each sensor, and rooms and streets without
+# any, draws their depths and writes modules/segmenter/models/depth_pose.tflite. Build again afterwards, and fit the
+# confidences of the refined fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch and
+# python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   8000 simulated frames, 3 GB, about half an hour on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   11300 simulated frames, 7 GB, about 40 minutes on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
-# Run it after segments or range images changed. Training takes a quarter of an hour on two cores with AMX.
+# Run it after segments or range images changed. Training takes half an hour on two cores without AMX.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
@@ -44,6 +45,16 @@ simulate n_stereo_desk general stereo 150 20033 "${desk[@]}"
 simulate n_stereo_high general stereo 120 20034 "${near[@]}" "${high[@]}"
 simulate n_wide_general general laser 150 20035 "${far[@]}" "${wide[@]}" "${coats[@]}"
 simulate n_laser_sit general laser 100 20036 --posture sit
+# Rooms and streets: what may be taken for people.
+simulate n_depth_nohuman nohuman depth 400 20041 "${gray[@]}"
+simulate n_depth_nohuman2 nohuman depth 200 20042 "${gray[@]}" "${low[@]}"
+simulate n_stereo_nohuman nohuman stereo 500 20043
+simulate n_stereo_nohuman2 nohuman stereo 150 20044 "${desk[@]}"
+simulate n_dense_nohuman nohuman laser 500 20045 "${dense[@]}"
+simulate n_laser_nohuman nohuman laser 500 20046
+simulate n_few_nohuman nohuman laser 400 20047 "${few[@]}"
+simulate n_wide_nohuman nohuman laser 300 20048 "${wide[@]}"
+simulate n_street_nohuman nohuman laser 400 20049 "${few[@]}" --street-share 1 --max-camera-height-m 2.1
 
 pictures() {
   local out=$simulated/$(basename "$1").bin
@@ -57,7 +68,7 @@ for folder in "${folders[@]}"; do
   training+=("$folder.bin")
 done
 checks=()
-for set in laser_dev stereo_dev/pointing stereo_dev/general stereo_dev/multi rgbd_pointing; do
+for set in laser_dev stereo_dev/pointing stereo_dev/general stereo_dev/multi stereo_dev/nohuman rgbd_pointing; do
   pictures "$data/$set"
   checks+=("$simulated/$(basename "$set").bin")
 done

@@ -1,7 +1,8 @@
-// Writes what limbcast's own network of poses sees of people whose joints are known, to train it
-// on: limbcast-write-depth-pictures OUT.bin FOLDER... segments each folder's frames (pairs through
-// the reconstructor) and writes a record for each person who is found: train_depth_pose.py reads
-// them. Recorded people are only checked on, so bodies D4 and D5 are written too.
+// Writes what limbcast's own network of poses sees of people whose joints are known, and of things
+// in rooms without people, to train it on: limbcast-write-depth-pictures OUT.bin FOLDER... segments
+// each folder's frames (pairs through the reconstructor) and writes a record for each person who is
+// found and each thing that is taken for one: train_depth_pose.py reads them. Recorded people are
+// only checked on, so bodies D4 and D5 are written too.
 
 #include <tbb/parallel_for.h>
 
@@ -34,7 +35,8 @@ struct TrueJoint {
 struct Record {
   std::array<Eigen::half, kDepthPictureSide_px * kDepthPictureSide_px * 3> channels;
   std::array<TrueJoint, kJointCount> joints;
-  float px_per_m = 0.0F;  ///< at the picture's middle
+  float px_per_m = 0.0F;   ///< at the picture's middle
+  float is_person = 0.0F;  ///< 0 or 1: a thing
 };
 
 const TruePerson* person_at(const Eigen::Vector3f& head_m, const LoadedFrame& frame) {
@@ -50,6 +52,8 @@ const TruePerson* person_at(const Eigen::Vector3f& head_m, const LoadedFrame& fr
   }
   return nearest;
 }
+
+bool shows_nobody(const LoadedFrame& frame) { return frame.labelled && frame.persons.empty(); }
 
 TrueJoint joint_in(const DepthPicture& picture, const TruePerson& person, const std::string& name) {
   const auto told = person.joints_m.find(name);
@@ -68,16 +72,19 @@ std::optional<Record> record_of(const Segment& segment, const LoadedFrame& frame
   if (!segment.valid() || !segment.range_image) return std::nullopt;
   const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
   const TruePerson* person = person_at(head_m, frame);
-  if (person == nullptr) return std::nullopt;
+  // Beside people a candidate that is at nobody's head may be somebody's hand.
+  if (person == nullptr && !shows_nobody(frame)) return std::nullopt;
   const auto picture = draw_depths(*segment.range_image, head_m, down, DepthPictureParams{});
   if (!picture) return std::nullopt;
   Record record;
   const auto* channels = picture->channels.ptr<float>();
   for (std::size_t i = 0; i < record.channels.size(); ++i)
     record.channels[i] = static_cast<Eigen::half>(channels[i]);
+  record.px_per_m = static_cast<float>(picture->camera.fx) / picture->middle_m;
+  if (person == nullptr) return record;
+  record.is_person = 1.0F;
   for (std::size_t i = 0; i < record.joints.size(); ++i)
     record.joints[i] = joint_in(*picture, *person, std::string(kJointNames[i]));
-  record.px_per_m = static_cast<float>(picture->camera.fx) / picture->middle_m;
   return record;
 }
 
@@ -91,6 +98,16 @@ std::vector<Record> records_of(const LoadedFrame& frame, const Segmenter& segmen
   return records;
 }
 
+/// Of rooms: takes whatever looks a little like a head, so that the network sees many things.
+Params eager(Params params) {
+  constexpr float kEager = 2.0F;
+  params.classifier.min_head_odds -= kEager;
+  params.classifier.min_panorama_head_odds -= kEager;
+  params.classifier.min_person_odds -= kEager;
+  params.pose_network.enabled = false;
+  return params;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -100,21 +117,22 @@ int main(int argc, char** argv) {
   }
   Params params;
   params.depth_pose.enabled = false;
-  const Segmenter segmenter(params);
+  const Segmenter segmenter(params), of_rooms(eager(params));
   std::ofstream file(argv[1], std::ios::binary);
   for (int k = 2; k < argc; ++k) {
     const FrameReader reader(argv[k], DepthFrom::kReconstructor);
     std::vector<std::vector<Record>> frames(reader.paths().size());
     tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-      frames[i] = records_of(reader.read(reader.paths()[i]), segmenter);
+      const LoadedFrame frame = reader.read(reader.paths()[i]);
+      frames[i] = records_of(frame, shows_nobody(frame) ? of_rooms : segmenter);
     });
-    std::size_t people = 0;
+    std::size_t pictures = 0;
     for (const std::vector<Record>& records : frames) {
-      people += records.size();
+      pictures += records.size();
       file.write(reinterpret_cast<const char*>(records.data()),
                  static_cast<std::streamsize>(records.size() * sizeof(Record)));
     }
-    std::printf("%s: %zu people in %zu frames\n", argv[k], people, frames.size());
+    std::printf("%s: %zu pictures of %zu frames\n", argv[k], pictures, frames.size());
     std::fflush(stdout);
   }
   if (!file.flush()) {

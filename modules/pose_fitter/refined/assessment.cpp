@@ -24,9 +24,13 @@ constexpr Real kLeastPersonConfidence = 0.75;
 /// Beside people who are sure (company.hpp): of 190 frames of groups ten people and one thing lie
 /// between this and 0.5, five and one between 0.2 and this.
 constexpr Real kLeastAccompaniedConfidence = 0.35;
-/// Before a scanner the surface alone speaks: of 330 simulated rooms four got a person at 0.79, one
-/// at this; a real person before 32 rings lies at 0.8, and a thing of a real street at 0.51.
-constexpr Real kLeastScannedPersonConfidence = 0.85;
+/// Before a scanner, where the surface alone speaks, a body must be surer, also beside others: of
+/// 721 simulated people 710 are over this, of 1139 things of 570 rooms and of frames with people
+/// two lie between 0.75 and 0.95 and none over that. Of four real scans five people are over this;
+/// a bush and what is left behind somebody lie at 0.95.
+constexpr Real kLeastScannedPersonConfidence = 0.97;
+/// The same where the network of depths did not look: without it nobody is as sure.
+constexpr Real kLeastUnseenPersonConfidence = 0.85;
 /// Before a camera, nearer than this [m], legs are out of sight: of 340 simulated frames of people
 /// there ten more are told than at 0.75, of 380 rooms no thing more.
 constexpr Real kNearM = 1.5, kLeastNearPersonConfidence = 0.5;
@@ -38,21 +42,31 @@ bool of_scanner(const Observation& observation) {
   return !observation.has_colors && !observation.noise.grows_with_distance();
 }
 
+bool seen_in_depths(const FittedBody& fitted) {
+  return fitted.evidence.images.at(static_cast<std::size_t>(ImageNetwork::kDepthPose)).told;
+}
+
 bool is_noisy(const FittedBody& fitted) {
   const auto distance_m = static_cast<float>(fitted.body.points[kHead].z());
   return fitted.observation.noise.sigma_m(distance_m) > kMostTrainedNoiseM;
 }
 
+Real least_scanned_confidence(const FittedBody& fitted) {
+  return seen_in_depths(fitted) ? kLeastScannedPersonConfidence : kLeastUnseenPersonConfidence;
+}
+
 /// Of somebody who is alone.
 Real least_confidence(const FittedBody& fitted) {
   if (is_noisy(fitted)) return kLeastNoisyPersonConfidence;
-  if (of_scanner(fitted.observation)) return kLeastScannedPersonConfidence;
+  if (of_scanner(fitted.observation)) return least_scanned_confidence(fitted);
   const bool near = fitted.body.points[kHead].z() < kNearM;
   return near ? kLeastNearPersonConfidence : kLeastPersonConfidence;
 }
 
 Real least_accompanied_confidence(const FittedBody& fitted) {
-  return is_noisy(fitted) ? kLeastNoisyPersonConfidence : kLeastAccompaniedConfidence;
+  if (is_noisy(fitted)) return kLeastNoisyPersonConfidence;
+  return of_scanner(fitted.observation) ? least_scanned_confidence(fitted)
+                                        : kLeastAccompaniedConfidence;
 }
 
 /// How sure it is that an arm is the one that points, when another one that is straighter and more

@@ -11,7 +11,7 @@ template <int count>
 using Features = Eigen::Matrix<Real, count, 1>;
 using JointFeatures = Features<10 + 3 * kImageNetworkCount>;
 using FacingFeatures = Features<7 + kImageNetworkCount>;
-using DirectionFeatures = Features<10 + 6 * kImageNetworkCount>;
+using DirectionFeatures = Features<11 + 6 * kImageNetworkCount>;
 using PersonFeatures = Eigen::Matrix<float, 9 * kRegionCount + 29 + 6 * kImageNetworkCount, 1>;
 
 /// What tells that a joint is within 10 cm.
@@ -20,9 +20,9 @@ JointFeatures joint_features(const Evidence& evidence, int joint);
 /// and the face, the image's sides and the posture agree.
 FacingFeatures facing_features(const Evidence& evidence);
 /// What tells that an arm's axis is right, of a body that faces as it does: a straight arm in
-/// sight, each of whose joints stands where the image shows it, in a body that fits well, without a
-/// rival, not behind the body or across it, where few people point but where arms end that are
-/// missed.
+/// sight, each of whose joints stands where the image shows it, which points where the depths show
+/// it, in a body that fits well, without a rival, not behind the body or across it, where few
+/// people point but where arms end that are missed.
 DirectionFeatures direction_features(const BodyState& body, int side, const Evidence& evidence);
 /// What tells a person from furniture, which fits a body too, but in an odd posture, as well from
 /// the back, without limbs of its own, with a doubtful head, and goes on beside the body.

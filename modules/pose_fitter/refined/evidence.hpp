@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "modules/pose_fitter/refined/image_term.hpp"
@@ -16,6 +17,8 @@ struct ArmEvidence {
   Real sigma_rad = 0.0;  ///< of the arm axis, from the posterior covariance
   Real forwards = 0.0;   ///< cosine of the arm axis and the body's front
   Real outwards = 0.0;   ///< cosine of the arm axis and the body's side of this arm
+  /// Between the arm axis and what the network that tells depths sees of it; nothing: none looked.
+  std::optional<Real> off_seen_axis_rad{};
 };
 
 /// What speaks for a fitted body.

@@ -205,6 +205,19 @@ bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigne
   return costs.exchanged < costs.as_told;
 }
 
+std::optional<Vec3> seen_arm_axis(const BodyState& body, const Observation& observation, int side,
+                                  const RefinedParams& params) {
+  const auto look = std::find_if(observation.looks.begin(), observation.looks.end(),
+                                 [](const ImageLook& each) { return each.depth_weight > 0.0; });
+  if (look == observation.looks.end()) return std::nullopt;
+  const bool swapped = takes_sides_otherwise(body, *look, kAllParts, params);
+  const auto place = [&](int joint) -> Vec3 {
+    const SeenJoint& seen = look->joints[swapped ? mirrored(joint) : joint];
+    return seen.ray / seen.ray.z() * (hips_depth_m(body) + seen.behind_hips_m);
+  };
+  return place(kWrist + side) - place(kShoulder + side);
+}
+
 void add_image_term(const BodyState& body, const Observation& observation, unsigned parts,
                     const RefinedParams& params, NormalEquations& equations) {
   for (const ImageLook& look : observation.looks) add_look(body, look, parts, params, equations);

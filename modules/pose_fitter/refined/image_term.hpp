@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "modules/pose_fitter/refined/body_state.hpp"
 #include "modules/pose_fitter/refined/normal_equations.hpp"
 #include "modules/pose_fitter/refined/observation.hpp"
@@ -37,6 +39,11 @@ Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real h
 /// left for right.
 bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigned parts,
                            const RefinedParams& params);
+
+/// Where an arm points, from the shoulder to the wrist, by the network that tells depths; nothing
+/// where none looked.
+std::optional<Vec3> seen_arm_axis(const BodyState& body, const Observation& observation, int side,
+                                  const RefinedParams& params);
 
 /// Joints stand on the rays on which the networks see them, as far away as those tell whose
 /// depths have a weight.

@@ -43,7 +43,7 @@ struct RefinedParams {
   /// limit of the robust loss. Tuned.
   std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
   std::array<double, 3> image_weight = {1.0, 2.0, 2.0};
-  double image_limit_sigmas = 3.0;
+  double image_limit_sigmas = 3.5;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
   std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.5};
