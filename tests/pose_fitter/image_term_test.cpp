@@ -206,19 +206,21 @@ TEST_F(ImageTerm, TellsWhatTheNetworkOfDepthsSeesByItself) {
 }
 
 TEST_F(ImageTerm, TellsWhereAnArmPointsByTheNetworkThatTellsDepths) {
-  EXPECT_FALSE(seen_arm_axis(body_, observation_, 0, params_)) << "none tells depths";
+  const auto left_axis = [&] {
+    return seen_arm_axis(body_, observation_, 0, image_evidence(body_, observation_, params_));
+  };
+  EXPECT_FALSE(left_axis()) << "none tells depths";
   const BodyState seen = with_wrist_moved({0.2, -0.3, -0.4});
   tell_depths();
   observation_.looks.insert(observation_.looks.begin(), look_of(body_, ImageNetwork::kBlazePose));
   observation_.looks.back() = look_of(seen, ImageNetwork::kDepthPose);
   observation_.looks.back().depth_weight = 0.5;
   const Vec3 axis = seen.points[kWrist] - seen.points[kShoulder];
-  EXPECT_LT((seen_arm_axis(body_, observation_, 0, params_).value() - axis).norm(), 1e-9);
+  EXPECT_LT((left_axis().value() - axis).norm(), 1e-9);
   auto& joints = observation_.looks.back().joints;
   for (int joint = kShoulder; joint < kJointCount; joint += 2)
     std::swap(joints[joint], joints[joint + 1]);
-  EXPECT_LT((seen_arm_axis(body_, observation_, 0, params_).value() - axis).norm(), 1e-9)
-      << "it takes left for right";
+  EXPECT_LT((left_axis().value() - axis).norm(), 1e-9) << "it takes left for right";
 }
 
 TEST_F(ImageTerm, TellsNothingWithoutAnImage) {

@@ -100,6 +100,7 @@ TEST_F(DepthsOfTheDemo, ShowEachJointAndItsSideWithoutColors) {
     const Cloud cloud = hangs_sideways ? turned(frame_.cloud) : frame_.cloud;
     const ImagePose pose = seen_in(cloud);
     ASSERT_EQ(pose.joints.size(), static_cast<std::size_t>(kJointCount));
+    EXPECT_GT(pose.person_score, 0.7F);
     const Eigen::Vector3f pelvis_m = person_[Joint::kPelvis].position_m;
     for (const ImageJoint& joint : pose.joints) {
       const Eigen::Vector3f upright_m = person_[joint.joint].position_m;

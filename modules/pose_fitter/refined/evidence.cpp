@@ -163,7 +163,7 @@ Evidence gather_evidence(const std::vector<PoseCandidate>& candidates, PoseMoves
                              body.points[kWrist + side] - body.points[kElbow + side]);
     arm.sigma_rad = axis_sigma(body, covariance, side);
     const Vec3 axis = arm_axis(body, side);
-    if (const auto seen_axis = seen_arm_axis(body, observation, side, solver.params()))
+    if (const auto seen_axis = seen_arm_axis(body, observation, side, evidence.images))
       arm.off_seen_axis_rad = angle_rad(axis, *seen_axis);
     arm.forwards = axis.dot(body.front());
     arm.outwards = axis.dot(body.rotation.col(0)) * side_sign(side);

@@ -206,11 +206,11 @@ bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigne
 }
 
 std::optional<Vec3> seen_arm_axis(const BodyState& body, const Observation& observation, int side,
-                                  const RefinedParams& params) {
+                                  const std::array<ImageEvidence, kImageNetworkCount>& evidence) {
   const auto look = std::find_if(observation.looks.begin(), observation.looks.end(),
                                  [](const ImageLook& each) { return each.depth_weight > 0.0; });
   if (look == observation.looks.end()) return std::nullopt;
-  const bool swapped = takes_sides_otherwise(body, *look, kAllParts, params);
+  const bool swapped = evidence.at(static_cast<std::size_t>(look->network)).sides_swapped;
   const auto place = [&](int joint) -> Vec3 {
     const SeenJoint& seen = look->joints[swapped ? mirrored(joint) : joint];
     return seen.ray / seen.ray.z() * (hips_depth_m(body) + seen.behind_hips_m);

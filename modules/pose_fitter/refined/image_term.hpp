@@ -40,10 +40,10 @@ Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real h
 bool takes_sides_otherwise(const BodyState& body, const ImageLook& look, unsigned parts,
                            const RefinedParams& params);
 
-/// Where an arm points, from the shoulder to the wrist, by the network that tells depths; nothing
-/// where none looked.
+/// Where an arm points, from the shoulder to the wrist, by the network that tells depths, of a body
+/// that agrees with the networks as `evidence` tells; nothing where none looked.
 std::optional<Vec3> seen_arm_axis(const BodyState& body, const Observation& observation, int side,
-                                  const RefinedParams& params);
+                                  const std::array<ImageEvidence, kImageNetworkCount>& evidence);
 
 /// Joints stand on the rays on which the networks see them, as far away as those tell whose
 /// depths have a weight.
