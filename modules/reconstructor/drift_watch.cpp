@@ -1,6 +1,7 @@
 #include "modules/reconstructor/drift_watch.hpp"
 
 #include <chrono>
+#include <cmath>
 
 #include "common/formatted.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
@@ -10,10 +11,32 @@
 namespace limbcast::reconstructor {
 namespace {
 
-std::vector<double> measure(const StereoReconstructor& reconstructor, const stereo_images_t& pair) {
-  const StereoImages images = lcm_io::from_message(pair);
+std::vector<double> measured_rows_px(const StereoReconstructor& reconstructor,
+                                     const StereoImages& images) {
   return row_differences_px(
       reconstructor.rectifier().rectify(grey_of(images.left), grey_of(images.right)));
+}
+
+std::optional<GroundLean> measured_lean(const StereoReconstructor& reconstructor,
+                                        const StereoImages& images) {
+  if (!reconstructor.is_told_gravity(images.stamp)) return std::nullopt;  // spares a match
+  return ground_lean(reconstructor.reconstruct(images), reconstructor.focal_baseline_px_m());
+}
+
+std::string row_warning(const std::string& sensor, double drift_px) {
+  return formatted(
+      "the calibration of '%s' has drifted: the rows of the two images differ by %.1f px and are "
+      "aligned in each pair; measure it with limbcast-calibrate check and calibrate again",
+      sensor.c_str(), drift_px);
+}
+
+std::string lean_warning(const std::string& sensor, const GroundLean& ground) {
+  return formatted(
+      "the ground before '%s' leans by %.1f degrees against gravity as it is told: the right "
+      "camera "
+      "has turned, so that disparities are off by %.1f px and all distances are wrong, or the told "
+      "gravity is; measure a known length with limbcast-calibrate check",
+      sensor.c_str(), std::abs(ground.lean_deg), std::abs(ground.offset_px));
 }
 
 }  // namespace
@@ -24,8 +47,10 @@ void DriftWatch::look_at(const std::shared_ptr<const StereoReconstructor>& recon
   if (camera.reconstructor != reconstructor) camera = {reconstructor, DriftMonitor()};
   if (is_busy() || !camera.monitor.is_due(pair.stamp.utime)) return;
   measurement_ = std::async(std::launch::async, [reconstructor, pair] {
+    const StereoImages images = lcm_io::from_message(pair);
     return Measurement{pair.stamp.sensor, reconstructor, pair.stamp.utime,
-                       measure(*reconstructor, pair)};
+                       measured_rows_px(*reconstructor, images),
+                       measured_lean(*reconstructor, images)};
   });
 }
 
@@ -35,20 +60,18 @@ bool DriftWatch::is_busy() {
   Measurement done = measurement_.get();
   Camera& camera = cameras_.get(done.sensor);
   if (camera.reconstructor == done.reconstructor)
-    camera.monitor.add(done.utime, std::move(done.row_differences_px));
+    camera.monitor.add(done.utime, std::move(done.row_differences_px), done.ground);
   return false;
 }
 
 std::string DriftWatch::warning() const {
   std::string text;
-  cameras_.for_each([&text](const std::string& sensor, const Camera& camera) {
-    const std::optional<double> drift_px = camera.monitor.drift_px();
-    if (!drift_px) return;
-    text.append(text.empty() ? "" : "; ");
-    text.append(formatted(
-        "the calibration of '%s' has drifted: the rows of the two images differ by %.1f px and are "
-        "aligned in each pair; measure it with limbcast-calibrate check and calibrate again",
-        sensor.c_str(), *drift_px));
+  const auto tell = [&text](const std::string& warning) {
+    text.append(text.empty() ? "" : "; ").append(warning);
+  };
+  cameras_.for_each([&tell](const std::string& sensor, const Camera& camera) {
+    if (const auto drift_px = camera.monitor.drift_px()) tell(row_warning(sensor, *drift_px));
+    if (const auto ground = camera.monitor.lean()) tell(lean_warning(sensor, *ground));
   });
   return text;
 }

@@ -3,6 +3,7 @@
 #include <future>
 #include <limbcast/stereo_images_t.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ class DriftWatch {
     std::shared_ptr<const StereoReconstructor> reconstructor;
     std::int64_t utime;
     std::vector<double> row_differences_px;
+    std::optional<GroundLean> ground;
   };
   /// True while a pair is being measured.
   bool is_busy();

@@ -71,8 +71,7 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
       roi_(region_of_interest(options, rectifier_.camera())) {
   check_limits(options);
   const auto disparities_to = [&](double distance_m) {
-    const double focal_baseline = rectifier_.camera().fx * rectifier_.baseline_m();
-    return std::min({static_cast<int>(std::ceil(focal_baseline / distance_m)) + 1,
+    return std::min({static_cast<int>(std::ceil(focal_baseline_px_m() / distance_m)) + 1,
                      rectifier_.camera().width, kMaxDisparities});
   };
   most_disparities_ = disparities_to(options.near_limit_m);
@@ -80,8 +79,11 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
 }
 
 double StereoReconstructor::nearest_m() const {
-  return std::max(options_.near_limit_m,
-                  rectifier_.camera().fx * rectifier_.baseline_m() / most_disparities_);
+  return std::max(options_.near_limit_m, focal_baseline_px_m() / most_disparities_);
+}
+
+bool StereoReconstructor::is_told_gravity(const Stamp& stamp) const {
+  return gravity_of(stamp, mounting_).source != GravitySource::kLevel;
 }
 
 DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {

@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "modules/reconstructor/reconstructor.hpp"
 #include "modules/reconstructor/row_differences.hpp"
 #include "tests/reconstructor/stereo_truth.hpp"
 #include "tests/reconstructor/synthetic_pair.hpp"
@@ -102,6 +103,21 @@ TEST(DriftMonitor, MeasuresOnceASecondAlsoWhereTimesJumpBack) {
   EXPECT_TRUE(monitor.is_due(0));
 }
 
+TEST(DriftMonitor, TellsAGroundThatLeansMoreThanToldGravityMayBeOff) {
+  DriftMonitor monitor;
+  auto add = [&monitor, utime = std::int64_t{0}](double lean_deg) mutable {
+    monitor.add(utime += kSecond_us, {}, GroundLean{2.0 * lean_deg, lean_deg});
+  };
+  for (int i = 0; i < 9; ++i) add(i % 4 == 0 ? 5.0 : 1.0);
+  EXPECT_FALSE(monitor.lean());
+  for (int i = 0; i < 9; ++i) add(-2.0);
+  ASSERT_TRUE(monitor.lean());
+  EXPECT_EQ(monitor.lean()->lean_deg, -2.0);
+  EXPECT_EQ(monitor.lean()->offset_px, -4.0);
+  for (int i = 0; i < 9; ++i) add(0.5);
+  EXPECT_FALSE(monitor.lean());
+}
+
 /// Drift that the pairs of a recording show; nothing where they show none.
 std::optional<double> drift_of(const std::vector<std::string>& lefts,
                                const StereoCalibration& calibration) {
@@ -176,6 +192,44 @@ TEST(Drift, IsSeenOnNoRecordingUnlessTheCalibrationIsTurned) {
     EXPECT_FALSE(drift_of(lefts, calibration)) << name;
     EXPECT_TRUE(drift_of(lefts, test::turned(calibration, 0.0035, 0.0))) << name;
     EXPECT_TRUE(drift_of(lefts, test::turned(calibration, 0.0, 0.01))) << name;
+  }
+}
+
+/// How the ground of a recording lies against gravity, with the right camera turned about its
+/// upright axis; nothing where it lies as gravity tells.
+std::optional<GroundLean> lean_of(const std::string& folder, double turn_rad) {
+  StereoCalibration calibration = test::read_calibration(folder);
+  if (turn_rad != 0.0) {
+    calibration.R = Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()) * calibration.R;
+    calibration.rectification.reset();
+  }
+  const StereoReconstructor reconstructor(calibration, ReconstructorOptions{});
+  DriftMonitor monitor;
+  std::int64_t utime = 0;
+  for (const std::string& name : test::frame_names(folder)) {
+    const test::TrueFrame frame =
+        test::read_true_frame(folder, name, reconstructor.focal_baseline_px_m());
+    StereoImages images;
+    images.left = frame.left;
+    images.right = frame.right;
+    images.stamp.gravity.down = frame.down;
+    images.stamp.gravity.source = GravitySource::kRecording;
+    monitor.add(
+        utime += kSecond_us, {},
+        ground_lean(reconstructor.reconstruct(images), reconstructor.focal_baseline_px_m()));
+    if (utime >= 12 * kSecond_us) break;
+  }
+  return monitor.lean();
+}
+
+TEST(Drift, IsSeenOnTheGroundOfARecordingWhoseRightCameraTurned) {
+  const std::string data = test::stereo_dev_folder();
+  if (!fs::exists(data)) GTEST_SKIP() << data << " is absent";
+  for (const char* name : {"general", "multi", "hd"}) {
+    const std::string folder = data + "/" + name;
+    EXPECT_FALSE(lean_of(folder, 0.0)) << name;
+    EXPECT_TRUE(lean_of(folder, 0.006)) << name;
+    EXPECT_TRUE(lean_of(folder, -0.006)) << name;
   }
 }
 

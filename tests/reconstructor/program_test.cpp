@@ -93,6 +93,23 @@ TEST_F(ReconstructorProgram, WarnsInItsStatusOfACalibrationThatDrifted) {
   EXPECT_EQ(status_->note, "");
 }
 
+TEST_F(ReconstructorProgram, WarnsInItsStatusOfARightCameraThatTurnedAboutItsUprightAxis) {
+  StereoCalibration turned = lcm_io::from_message(calibration_);
+  turned.R = Eigen::AngleAxisd(0.006, Eigen::Vector3d::UnitY()) * turned.R;
+  turned.rectification.reset();
+  const stereo_calibration_t drifted =
+      lcm_io::to_message(turned, calibration_.utime, calibration_.sensor);
+
+  // 520 px * 0.006 = 3.1 px; told gravity is off by half a degree, or 0.5 px.
+  ASSERT_TRUE(feed_until(drifted, [](const module_status_t& status) {
+    return status.note.find("leans by") != std::string::npos;
+  }));
+  EXPECT_THAT(status_->note, HasSubstr("the ground before 'stereo' leans by"));
+  EXPECT_THAT(status_->note, ContainsRegex("disparities are off by (2.[5-9]|3.[0-9]|4.[0-3]) px"));
+  EXPECT_THAT(program_.output(), HasSubstr("WARNING the ground before 'stereo' leans by"));
+  ASSERT_TRUE(feed_until(calibration_, [](const auto& status) { return status.note.empty(); }));
+}
+
 TEST(NearLimit, IsToldWhereTheMatcherCannotSearchSoFar) {
   const std::string out = temporary_folder("near_limit") + "/poses.log";
   const auto replay = [&](const std::string& near_limit_m) {
