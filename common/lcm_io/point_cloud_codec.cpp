@@ -17,9 +17,6 @@
 namespace limbcast::lcm_io {
 namespace {
 
-/// More than any sensor on a robot gives in one frame; guards against nonsense in a message.
-constexpr std::int64_t kMaxPoints = 8'000'000;
-
 /// Depths of a camera's points as the message carries them. Row by row, so that what lies between
 /// the steps stays in the cache.
 std::vector<std::uint16_t> depth_codes(const Cloud& cloud, double inverse_depth_scale) {

@@ -1,8 +1,13 @@
 #include "modules/laser_scanner/cloud_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include "common/input_error.hpp"
@@ -11,9 +16,6 @@
 
 namespace limbcast::laser_scanner {
 namespace {
-
-/// More points than any scanner gives; guards against nonsense in a header.
-constexpr std::size_t kMaxPoints = 50'000'000;
 
 [[noreturn]] void fail(const std::string& path, const std::string& found) {
   throw InputError(path + ": " + found + "; copy it again or convert it to PCD");
@@ -39,12 +41,24 @@ std::vector<std::string> next_line(const std::string& bytes, std::size_t& at,
 std::size_t read_count(const std::string& word, const std::string& path) {
   char* end = nullptr;
   const unsigned long long count = std::strtoull(word.c_str(), &end, 10);
-  if (word.empty() || *end != '\0' || count > kMaxPoints) fail(path, "tells '" + word + "' points");
+  // As the formats' own libraries count; two of them can be multiplied.
+  constexpr auto kLargestCount = std::numeric_limits<std::uint32_t>::max();
+  if (word.empty() || *end != '\0' || count > kLargestCount)
+    fail(path, "tells '" + word + "' points");
   return count;
+}
+
+void check_num_points(const PointTable& table, std::size_t max_points, const std::string& path) {
+  if (table.num_points <= max_points) return;
+  throw InputError(path + ": holds " + std::to_string(table.num_points) +
+                   " points, more than the " + std::to_string(max_points) +
+                   " that can be sent; thin it out or cut it in pieces");
 }
 
 struct PcdHeader {
   PointTable table;
+  std::optional<std::size_t> num_points, width;
+  std::size_t height = 1;
   std::string data;  ///< ascii, binary or binary_compressed
 };
 
@@ -54,7 +68,9 @@ void read_pcd_line(const std::vector<std::string>& words, PcdHeader& header,
   std::vector<Column>& columns = header.table.columns;
   const std::string& key = words[0];
   if (key == "FIELDS") columns.resize(words.size() - 1);
-  if (key == "POINTS" && words.size() > 1) header.table.num_points = read_count(words[1], path);
+  if (key == "POINTS" && words.size() > 1) header.num_points = read_count(words[1], path);
+  if (key == "WIDTH" && words.size() > 1) header.width = read_count(words[1], path);
+  if (key == "HEIGHT" && words.size() > 1) header.height = read_count(words[1], path);
   if (key == "DATA" && words.size() > 1) header.data = words[1];
   if (key != "FIELDS" && key != "SIZE" && key != "TYPE" && key != "COUNT") return;
   if (words.size() != columns.size() + 1) fail(path, "its header's " + key + " has another length");
@@ -71,19 +87,26 @@ void read_pcd_line(const std::vector<std::string>& words, PcdHeader& header,
   }
 }
 
+void check_pcd_column(const Column& column, const std::string& path) {
+  const bool size_right =
+      column.size == 1 || column.size == 2 || column.size == 4 || column.size == 8;
+  if (!size_right || column.count < 1 || column.count > 4096) fail(path, "its header is no PCD's");
+  if (column.kind == NumberKind::kFloat && column.size < 4) {
+    throw InputError(path + ": its field '" + column.name + "' is a float of " +
+                     std::to_string(column.size) + " bytes; write it with 4 or 8");
+  }
+}
+
 PcdHeader read_pcd_header(const std::string& bytes, std::size_t& at, const std::string& path) {
   PcdHeader header;
   while (header.data.empty()) {
     const std::vector<std::string> words = next_line(bytes, at, path);
     if (!words.empty()) read_pcd_line(words, header, path);
   }
-  for (const Column& column : header.table.columns) {
-    const bool size_right =
-        column.size == 1 || column.size == 2 || column.size == 4 || column.size == 8;
-    if (!size_right || column.count < 1 || column.count > 4096)
-      fail(path, "its header is no PCD's");
-  }
+  for (const Column& column : header.table.columns) check_pcd_column(column, path);
   if (header.table.columns.empty()) fail(path, "its header names no fields");
+  if (!header.num_points && !header.width) fail(path, "its header does not tell how many points");
+  header.table.num_points = header.num_points ? *header.num_points : *header.width * header.height;
   return header;
 }
 
@@ -121,9 +144,10 @@ std::vector<std::uint8_t> unpack_pcd(const PointTable& table, const std::string&
   return rows_of_columns(table, *columns);
 }
 
-RawCloud read_pcd(const std::string& bytes, const std::string& path) {
+RawCloud read_pcd(const std::string& bytes, std::size_t max_points, const std::string& path) {
   std::size_t at = 0;
   const PcdHeader header = read_pcd_header(bytes, at, path);
+  check_num_points(header.table, max_points, path);
   std::vector<std::uint8_t> rows;
   if (header.data == "ascii") {
     rows = rows_of_text(header.table, bytes.substr(at), path);
@@ -154,7 +178,7 @@ Column ply_column(const std::string& type, const std::string& name, const std::s
   fail(path, "has a property of type '" + type + "'");
 }
 
-RawCloud read_ply(const std::string& bytes, const std::string& path) {
+RawCloud read_ply(const std::string& bytes, std::size_t max_points, const std::string& path) {
   PointTable table;
   std::string format;
   bool in_vertices = false;
@@ -174,6 +198,7 @@ RawCloud read_ply(const std::string& bytes, const std::string& path) {
     }
   }
   if (table.columns.empty()) fail(path, "has no points");
+  check_num_points(table, max_points, path);
   if (format == "ascii")
     return points_of_rows(table, rows_of_text(table, bytes.substr(at), path), path);
   if (format != "binary_little_endian") fail(path, "its format is '" + format + "'");
@@ -181,13 +206,14 @@ RawCloud read_ply(const std::string& bytes, const std::string& path) {
                         path);
 }
 
-RawCloud read_kitti(const std::string& bytes, const std::string& path) {
+RawCloud read_kitti(const std::string& bytes, std::size_t max_points, const std::string& path) {
   const PointTable table{{{"x", NumberKind::kFloat, 4, 1},
                           {"y", NumberKind::kFloat, 4, 1},
                           {"z", NumberKind::kFloat, 4, 1},
                           {"intensity", NumberKind::kFloat, 4, 1}},
                          bytes.size() / 16};
   if (bytes.size() % table.row_bytes() != 0) fail(path, "is torn, no multiple of 16 bytes");
+  check_num_points(table, max_points, path);
   return points_of_rows(table, {bytes.begin(), bytes.end()}, path);
 }
 
@@ -197,13 +223,24 @@ bool starts_with(const std::string& text, const std::string& start) {
 
 }  // namespace
 
-RawCloud read_cloud_file(const std::string& path) {
+RawCloud read_cloud_file(const std::string& path, std::size_t max_points) {
   const std::string bytes = read_bytes(path);
   if (bytes.empty()) fail(path, "is empty");
-  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return read_ply(bytes, path);
-  if (starts_with(bytes, "# .PCD") || starts_with(bytes, "VERSION")) return read_pcd(bytes, path);
-  if (path.size() > 4 && path.substr(path.size() - 4) == ".bin") return read_kitti(bytes, path);
+  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) {
+    return read_ply(bytes, max_points, path);
+  }
+  if (starts_with(bytes, "# .PCD") || starts_with(bytes, "VERSION")) {
+    return read_pcd(bytes, max_points, path);
+  }
+  if (extension_of(path) == ".bin") return read_kitti(bytes, max_points, path);
   fail(path, "is neither PCD, PLY nor KITTI .bin");
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 }  // namespace limbcast::laser_scanner

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,7 +22,10 @@ struct RawCloud {
 /// Reads .pcd (ascii, binary, binary_compressed), .ply (ascii, binary little-endian) or .bin
 /// (KITTI: x y z intensity, 32-bit floats), with the columns of colours, intensities and rings that
 /// there are. Points that are not finite (no return) are left out.
-/// Throws InputError naming file and fault.
-RawCloud read_cloud_file(const std::string& path);
+/// Throws InputError naming file and fault; more than `max_points` are one.
+RawCloud read_cloud_file(const std::string& path, std::size_t max_points);
+
+/// The end of a file's name in small letters, e.g. ".pcd": recorders write .PCD too.
+std::string extension_of(const std::string& path);
 
 }  // namespace limbcast::laser_scanner

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "common/formatted.hpp"
 #include "common/human_model/ground_truth_json.hpp"
@@ -39,6 +41,31 @@ RawCloud converted(const RawCloud& raw, const Axes& axes, const CloudSourceParam
   return cloud;
 }
 
+/// Why no point of a cloud is left; empty where one is. `advice`: where all are too near or far.
+std::string fault_of(const RawCloud& kept, const RawCloud& raw, const CloudSourceParams& params,
+                     const std::string& where, const std::string& advice) {
+  if (!kept.points.empty()) return "";
+  if (raw.points.empty()) return where + ": has no finite points; is the scanner's view free?";
+  return where +
+         formatted(": none of %zu points lies within %g to %g m; ", raw.points.size(),
+                   params.near_limit_m, params.far_limit_m) +
+         advice;
+}
+
+/// The ends of the names of files of clouds, as they are written in this folder.
+std::vector<std::string> cloud_extensions(const std::string& folder) {
+  std::vector<std::string> extensions = {".pcd", ".ply", ".bin"};
+  const std::set<std::string> known(extensions.begin(), extensions.end());
+  std::set<std::string> spelled_otherwise;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    const bool is_cloud = known.count(extension_of(entry.path().string())) > 0;
+    if (is_cloud && known.count(extension) == 0) spelled_otherwise.insert(extension);
+  }
+  extensions.insert(extensions.end(), spelled_otherwise.begin(), spelled_otherwise.end());
+  return extensions;
+}
+
 Stamp stamp_of(const CloudSourceParams& params, std::int64_t utime, std::int64_t sequence) {
   Stamp stamp;
   stamp.utime = utime;
@@ -54,7 +81,7 @@ class CloudFiles : public CloudSource {
   CloudFiles(CloudSourceParams params, Recording recording)
       : params_(std::move(params)), recording_(std::move(recording)) {
     const std::string first = recording_.frames.front().first_path;
-    const bool is_kitti = fs::path(first).extension() == ".bin";
+    const bool is_kitti = extension_of(first) == ".bin";
     axes_.emplace(axes_of(params_, is_kitti ? "-y,-z,x" : "x,y,z"), params_.unit_m);
   }
 
@@ -79,7 +106,10 @@ class CloudFiles : public CloudSource {
   CloudFrame read(const RecordedFrame& recorded) const {
     CloudFrame frame;
     frame.stamp = stamp_of(params_, recorded.time.utime + loop_offset_us_, sequence_);
-    frame.cloud = converted(read_cloud_file(recorded.first_path), *axes_, params_);
+    const RawCloud raw = read_cloud_file(recorded.first_path, params_.max_points);
+    frame.cloud = converted(raw, *axes_, params_);
+    frame.fault = fault_of(frame.cloud, raw, params_, recorded.first_path,
+                           "give --unit-m 0.001 where they are in millimetres");
     if (recorded.time.down) {
       frame.stamp.gravity.down = *recorded.time.down;
       frame.stamp.gravity.source = GravitySource::kRecording;
@@ -112,14 +142,16 @@ class VelodyneSource : public CloudSource {
 
   std::optional<CloudFrame> next() override {
     while (const std::optional<Packet> packet = packets_.next()) {
-      if (packet->payload.size() != kVelodynePacketBytes) continue;
+      if (packet->payload.size() != kVelodynePacketBytes || !is_ours(*packet)) continue;
       last_packet_at_ = Clock::now();
       if (!decoder_ && !find_model(*packet)) continue;
       if (auto sweep = decoder_->add(packet->payload, packet->utime)) {
         const RawCloud raw{
             std::move(sweep->points_m), {}, std::move(sweep->intensities), std::move(sweep->rings)};
+        RawCloud cloud = converted(raw, axes_, params_);
+        std::string fault = fault_of(cloud, raw, params_, params_.source, "give other limits");
         return CloudFrame{
-            stamp_of(params_, sweep->utime, sequence_++), converted(raw, axes_, params_), {}};
+            stamp_of(params_, sweep->utime, sequence_++), std::move(cloud), {}, std::move(fault)};
       }
     }
     ended_ = !is_live_;
@@ -132,7 +164,10 @@ class VelodyneSource : public CloudSource {
   }
   bool ended() const override { return ended_; }
   bool live() const override { return is_live_; }
-  std::string problem() const override { return is_live_ ? silence() : torn_end(); }
+  std::string problem() const override {
+    const std::string own = is_live_ ? silence() : torn_end();
+    return own.empty() ? second_scanner() : own;
+  }
   std::string description() const override {
     return params_.source + (is_live_ ? ": Velodyne, live" : ": Velodyne, recorded");
   }
@@ -146,10 +181,32 @@ class VelodyneSource : public CloudSource {
     if (!model && model_finder_.gave_up()) throw unknown_model();
     return model.has_value();
   }
+  /// A live scanner that sent at this time has sent nothing for too long since.
+  bool is_silent_since(Clock::time_point packet_at) const {
+    const std::chrono::duration<double> silent_for = Clock::now() - packet_at;
+    return is_live_ && silent_for.count() >= params_.stall_timeout_s;
+  }
+  /// Two scanners would be mixed to one cloud, so the first one heard is kept to; until it is
+  /// silent, as its address may change where it is switched on again.
+  bool is_ours(const Packet& packet) {
+    if (sender_.empty() || is_silent_since(last_packet_at_)) {
+      sender_ = packet.sender;
+      second_sender_.clear();
+    }
+    if (packet.sender == sender_) return true;
+    if (second_sender_.empty()) second_sender_ = packet.sender;
+    second_packet_at_ = Clock::now();
+    return false;
+  }
+  /// What is wrong where another scanner sends to the same port; empty where none does.
+  std::string second_scanner() const {
+    if (second_sender_.empty() || is_silent_since(second_packet_at_)) return "";
+    return params_.source + ": packets of " + second_sender_ + " are left out, as those of " +
+           sender_ + " came first; give each scanner a port and a recording of its own";
+  }
   /// What is wrong with a scanner that sends nothing; empty where it does.
   std::string silence() const {
-    const std::chrono::duration<double> silent_for = Clock::now() - last_packet_at_;
-    if (silent_for.count() < params_.stall_timeout_s) return "";
+    if (!is_silent_since(last_packet_at_)) return "";
     return params_.source + ": no packets for " + formatted("%g", params_.stall_timeout_s) +
            " s; is the scanner on, and does it send to this host and port?";
   }
@@ -170,7 +227,8 @@ class VelodyneSource : public CloudSource {
   bool ended_ = false;
   VelodyneModelFinder model_finder_;
   std::optional<VelodyneDecoder> decoder_;
-  Clock::time_point last_packet_at_ = Clock::now();
+  std::string sender_, second_sender_;  ///< empty where there was none
+  Clock::time_point last_packet_at_ = Clock::now(), second_packet_at_;
   std::int64_t sequence_ = 0;
 };
 
@@ -191,14 +249,14 @@ std::unique_ptr<CloudSource> open_cloud_source(const CloudSourceParams& params) 
   if (source.compare(0, kLivePrefix.size(), kLivePrefix) == 0) return open_velodyne(params);
   if (fs::is_directory(source)) {
     return std::make_unique<CloudFiles>(
-        params, find_recording_of_files(source, {".pcd", ".ply", ".bin"}, params.recording));
+        params, find_recording_of_files(source, cloud_extensions(source), params.recording));
   }
   if (!fs::exists(source)) {
     throw InputError(source +
                      ": does not exist; give a folder or file of clouds (.pcd, .ply, .bin), a " +
                      ".pcap recording, or velodyne:PORT");
   }
-  if (fs::path(source).extension() == ".pcap") {
+  if (extension_of(source) == ".pcap") {
     if (params.loop)
       throw InputError(source + ": a pcap recording cannot be looped; leave out --loop");
     return std::make_unique<VelodyneSource<PcapReader>>(params, source, false);

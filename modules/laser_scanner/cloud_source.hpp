@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ struct CloudFrame {
   Stamp stamp;
   RawCloud cloud;
   std::optional<BodyPoses> truth;
+  std::string fault;  ///< why the cloud has no points; empty where it has some
 };
 using CloudSource = FrameSource<CloudFrame>;
 
@@ -26,6 +28,7 @@ struct CloudSourceParams {
   std::string model;             ///< of a Velodyne: "vlp16", "hdl32", or "auto", as its packets say
   double stall_timeout_s = 2.0;  ///< a live scanner that sends nothing for so long has stalled
   double near_limit_m = 0.3, far_limit_m = 30.0;
+  std::size_t max_points = 0;  ///< files of more are refused
   RecordingParams recording;
   bool loop = false;
   std::string sensor, frame;  ///< for the stamp

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/cloud/ground_plane.hpp"
+#include "common/formatted.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/sources/source_loop.hpp"
 #include "modules/laser_scanner/cloud_source.hpp"
@@ -43,7 +44,7 @@ void declare(config::Section& section, Options& options) {
   section.add("ground-plane", options.ground_plane,
               "find gravity and the sensor's height from the ground where nobody told them");
   declare_playback(section, options.process);
-  section.add("cloud-channel", options.cloud_channel, "channel of the clouds");
+  section.add_channel("cloud-channel", options.cloud_channel, "channel of the clouds");
 }
 
 Cloud make_cloud(CloudFrame& frame, const Options& options) {
@@ -74,19 +75,54 @@ class GravityReport {
   std::optional<GravitySource> last_source_;
 };
 
+/// Tells of clouds without points: in the status, or as one line where a log is written.
+class EmptyCloudReport {
+ public:
+  void tell(const std::string& fault, bool to_log, Outlet& outlet) {
+    const bool is_new = fault_.empty();
+    if (fault.empty()) {
+      if (!fault_.empty()) config::log(config::LogLevel::kInfo, "over: " + fault_);
+      fault_.clear();
+      return;
+    }
+    // The first one's text stands for those that follow, whose numbers differ.
+    if (is_new) fault_ = fault;
+    if (!to_log) {
+      outlet.report_problem(fault_);
+    } else if (is_new) {
+      config::log(config::LogLevel::kWarning, fault_);
+    }
+  }
+
+ private:
+  std::string fault_;
+};
+
+void check_limits(const CloudSourceParams& source) {
+  if (source.near_limit_m < source.far_limit_m) return;
+  throw config::UsageError(formatted("'near-limit-m' is %g, must be below 'far-limit-m', %g",
+                                     source.near_limit_m, source.far_limit_m) +
+                           "; no point lies within");
+}
+
 void run(Options& options, const config::CommonOptions& common) {
   if (options.source.source.empty()) {
     throw config::UsageError("--source is missing; see limbcast-laser-scanner --help");
   }
+  check_limits(options.source);
+  options.process.source.source = options.source.source;  // a log must not be written over it
   options.process.source.loop = options.source.loop = options.process.source.loop;
   require_end(options.process);
   const double rate_hz = options.process.source.rate_hz;
   options.source.recording = {rate_hz > 0.0 ? rate_hz : kDefaultRate_hz,
                               std::llround(1e6 * options.process.start_time_s)};
+  options.source.max_points = lcm_io::kMaxPoints;
   options.source.sensor = options.process.sensor;
   options.source.frame = options.process.sensor + "/scan";
   GravityReport gravity_report;
+  EmptyCloudReport empty_cloud_report;
   FrameSender<CloudFrame> sender(options.process, {}, [&](Outlet& outlet, CloudFrame& frame) {
+    empty_cloud_report.tell(frame.fault, !options.process.log.empty(), outlet);
     Cloud cloud = make_cloud(frame, options);
     const auto ground = options.ground_plane ? complete_gravity(cloud) : std::nullopt;
     gravity_report.tell(cloud.stamp.gravity, ground, outlet);

@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
+#include "common/formatted.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast::laser_scanner {
@@ -19,6 +21,8 @@ namespace {
 constexpr std::size_t kLargestPacket = 65536;
 constexpr std::uint8_t kUdp = 17;
 constexpr std::size_t kUdpHeaderBytes = 8;
+constexpr std::size_t kSenderAt = 12;  ///< in the IP header
+constexpr std::size_t kVlanTagBytes = 4;
 
 /// Bytes before the IP header, by the file's kind of link.
 std::optional<std::size_t> link_bytes(std::uint32_t link_type) {
@@ -26,6 +30,20 @@ std::optional<std::size_t> link_bytes(std::uint32_t link_type) {
   if (link_type == 101) return 0;   // raw IP
   if (link_type == 113) return 16;  // Linux cooked
   return std::nullopt;
+}
+
+/// Where the IP header begins: behind the link's bytes, whose last two say what follows, and the
+/// tags of virtual networks (IEEE 802.1Q: 0x8100), which end likewise.
+std::size_t ip_begin(const std::vector<std::uint8_t>& frame, std::size_t link_bytes) {
+  std::size_t begin = link_bytes;
+  while (begin >= 2 && begin <= frame.size() && frame[begin - 2] == 0x81 && frame[begin - 1] == 0) {
+    begin += kVlanTagBytes;
+  }
+  return begin;
+}
+
+std::string ipv4_text(const std::uint8_t* address) {
+  return formatted("%d.%d.%d.%d", address[0], address[1], address[2], address[3]);
 }
 
 /// What a UDP packet carries; empty for all else.
@@ -94,8 +112,10 @@ std::int64_t PcapReader::bytes_behind_records() {
 
 std::optional<Packet> PcapReader::next() {
   while (const std::optional<Packet> frame = next_frame()) {
-    Packet packet{frame->utime, udp_payload(frame->payload, link_bytes_)};
-    if (!packet.payload.empty()) return packet;
+    const std::size_t ip_at = ip_begin(frame->payload, link_bytes_);
+    std::vector<std::uint8_t> payload = udp_payload(frame->payload, ip_at);
+    if (payload.empty()) continue;
+    return Packet{frame->utime, std::move(payload), ipv4_text(&frame->payload[ip_at + kSenderAt])};
   }
   torn_bytes_ = bytes_behind_records();
   return std::nullopt;
@@ -126,8 +146,12 @@ UdpReceiver::~UdpReceiver() { ::close(socket_); }
 std::optional<Packet> UdpReceiver::next() {
   Packet packet;
   packet.payload.resize(kLargestPacket);
-  const ssize_t size = recv(socket_, packet.payload.data(), packet.payload.size(), 0);
+  sockaddr_in sender{};
+  socklen_t sender_bytes = sizeof(sender);
+  const ssize_t size = recvfrom(socket_, packet.payload.data(), packet.payload.size(), 0,
+                                reinterpret_cast<sockaddr*>(&sender), &sender_bytes);
   if (size < 0) return std::nullopt;
+  packet.sender = ipv4_text(reinterpret_cast<const std::uint8_t*>(&sender.sin_addr));
   packet.payload.resize(static_cast<std::size_t>(size));
   using namespace std::chrono;
   packet.utime = duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();

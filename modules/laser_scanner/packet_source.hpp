@@ -12,10 +12,11 @@ namespace limbcast::laser_scanner {
 struct Packet {
   std::int64_t utime = 0;  ///< [us since the Unix epoch]
   std::vector<std::uint8_t> payload;
+  std::string sender;  ///< IPv4 address, e.g. "192.168.1.201"
 };
 
 /// Reads the UDP packets of a pcap recording (tcpdump, Wireshark; microseconds or nanoseconds;
-/// Ethernet, Linux cooked or raw IPv4).
+/// Ethernet, also with VLAN tags, Linux cooked or raw IPv4).
 class PcapReader {
  public:
   /// Throws InputError where the file is no pcap file.

@@ -50,8 +50,12 @@ float read_number(const Place& place, const std::uint8_t* row) {
   const bool is_signed = column.kind == NumberKind::kSigned;
   if (column.size == 1) return is_signed ? load<std::int8_t>(bytes) : load<std::uint8_t>(bytes);
   if (column.size == 2) return is_signed ? load<std::int16_t>(bytes) : load<std::uint16_t>(bytes);
-  return is_signed ? static_cast<float>(load<std::int32_t>(bytes))
-                   : static_cast<float>(load<std::uint32_t>(bytes));
+  if (column.size == 4) {
+    return is_signed ? static_cast<float>(load<std::int32_t>(bytes))
+                     : static_cast<float>(load<std::uint32_t>(bytes));
+  }
+  return is_signed ? static_cast<float>(load<std::int64_t>(bytes))
+                   : static_cast<float>(load<std::uint64_t>(bytes));
 }
 
 void store_number(const Column& column, double value, std::vector<std::uint8_t>& bytes) {
@@ -61,9 +65,11 @@ void store_number(const Column& column, double value, std::vector<std::uint8_t>&
     store<std::uint8_t>(value, bytes);
   } else if (column.size == 2) {
     store<std::int16_t>(value, bytes);
-  } else {
+  } else if (column.size == 4) {
     // Packed colours use all 32 bits.
     store<std::uint32_t>(value < 0.0 ? value + 4294967296.0 : value, bytes);
+  } else {
+    store<std::int64_t>(value, bytes);
   }
 }
 

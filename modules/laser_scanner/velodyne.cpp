@@ -18,6 +18,8 @@ constexpr std::uint8_t kVlp16Byte = 0x22, kHdl32Byte = 0x21;
 constexpr std::size_t kClockAt = kBlocks * kBlockBytes;
 /// The clock counts whole microseconds, which count twice with two returns a laser, and drifts.
 constexpr double kClockTolerance_us = 5.0;
+/// The clock begins again with each hour.
+constexpr double kClockPeriod_us = 3.6e9;
 
 /// Elevations in the order of firing [degrees].
 constexpr std::array<double, 16> kVlp16Elevations = {-15, 1, -13, 3,  -11, 5,  -9, 7,
@@ -91,25 +93,40 @@ double azimuth_deg(const std::vector<std::uint8_t>& packet, int block) {
          number_16(packet.data() + static_cast<std::size_t>(block) * kBlockBytes + 2);
 }
 
+/// The scanner's clock when it sent the packet [us since the full hour].
+std::int64_t clock_us(const std::vector<std::uint8_t>& packet) {
+  return number_32(packet.data() + kClockAt);
+}
+
 }  // namespace
 
 std::optional<VelodyneModel> VelodyneModelFinder::add(const std::vector<std::uint8_t>& packet) {
   if (!is_data(packet)) return std::nullopt;
   ++num_packets_;
   if (packet.back() == kVlp16Byte) return VelodyneModel::kVlp16;
-  const std::int64_t clock_us = number_32(packet.data() + kClockAt);
+  const std::int64_t now_us = clock_us(packet);
   // With two returns a laser, a packet holds half as many firings.
   const double packets_of_all_firings = is_dual(packet) ? 2.0 : 1.0;
   if (last_clock_us_) {
     const double all_firings_us =
-        packets_of_all_firings * static_cast<double>(clock_us - *last_clock_us_);
+        packets_of_all_firings * static_cast<double>(now_us - *last_clock_us_);
     for (const VelodyneModel model : {VelodyneModel::kVlp16, VelodyneModel::kHdl32}) {
       if (std::abs(all_firings_us - kBlocks * block_us(model)) < kClockTolerance_us) return model;
     }
   }
-  last_clock_us_ = clock_us;
+  last_clock_us_ = now_us;
   if (gave_up() && packet.back() == kHdl32Byte) return VelodyneModel::kHdl32;
   return std::nullopt;
+}
+
+// Told by the clock, not by a small step back of the azimuth: that is a new turn where the scanner
+// is set to a narrow field of view.
+bool VelodyneDecoder::was_overtaken(const std::vector<std::uint8_t>& packet) const {
+  if (!newest_clock_us_) return false;
+  const auto behind_us = static_cast<double>(*newest_clock_us_ - clock_us(packet));
+  const double in_period_us = std::remainder(behind_us, kClockPeriod_us);
+  // A clock that steps back farther was set anew.
+  return in_period_us > 0.0 && in_period_us < kLongestGap_us;
 }
 
 std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packet,
@@ -123,6 +140,8 @@ std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packe
     started_ = false;
     last_azimuth_deg_ = -1.0;
   }
+  const bool overtaken = was_overtaken(packet);
+  if (!overtaken) newest_clock_us_ = clock_us(packet);
   const int step = is_dual(packet) ? 2 : 1;
   std::optional<Sweep> whole;
   double turn_deg = 0.0;
@@ -132,13 +151,15 @@ std::optional<Sweep> VelodyneDecoder::add(const std::vector<std::uint8_t>& packe
       turn_deg = std::fmod(azimuth_deg(packet, block + step) - azimuth + 360.0, 360.0);
     }
     const double from_behind = from_behind_deg(azimuth);
-    if (from_behind < last_azimuth_deg_) {
+    // Of the turn before, which was given out.
+    if (overtaken && from_behind > last_azimuth_deg_) continue;
+    if (!overtaken && from_behind < last_azimuth_deg_) {
       sweep_.utime = first_utime_ + (last_utime_ - first_utime_) / 2;
       if (started_) whole = std::move(sweep_);
       started_ = true;
       sweep_ = {};
     }
-    last_azimuth_deg_ = from_behind;
+    if (!overtaken) last_azimuth_deg_ = from_behind;
     if (sweep_.points_m.empty()) first_utime_ = utime;
     last_utime_ = utime;
     add_block(packet.data() + static_cast<std::size_t>(block) * kBlockBytes + 4, azimuth, turn_deg);

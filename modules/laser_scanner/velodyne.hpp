@@ -51,6 +51,7 @@ struct Sweep {
 /// 9; HDL-32E, 63-9113, appendix): 12 blocks of 32 returns each, in units of 2 mm and 0.01 degrees.
 /// A turn is cut behind the scanner, so that nobody in front is. The first, incomplete one is left
 /// out, and so is one during which no packet came for kLongestGap_us: people have moved meanwhile.
+/// Packets that others overtook on the network are put where they belong.
 class VelodyneDecoder {
  public:
   explicit VelodyneDecoder(VelodyneModel model) : model_(model) {}
@@ -61,6 +62,7 @@ class VelodyneDecoder {
   std::int64_t num_malformed() const { return num_malformed_; }
 
  private:
+  bool was_overtaken(const std::vector<std::uint8_t>& packet) const;
   void add_block(const std::uint8_t* returns, double azimuth_deg, double turn_deg);
 
   VelodyneModel model_;
@@ -68,6 +70,7 @@ class VelodyneDecoder {
   std::int64_t first_utime_ = 0, last_utime_ = 0;
   bool started_ = false;  ///< the first, incomplete turn is over
   double last_azimuth_deg_ = -1.0;
+  std::optional<std::int64_t> newest_clock_us_;  ///< the scanner's, of a packet none overtook
   std::int64_t num_malformed_ = 0;
 };
 

@@ -18,6 +18,8 @@ using test::error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+constexpr std::size_t kMaxPoints = 5;
+
 template <class T>
 std::string bytes_of(const std::vector<T>& numbers) {
   std::string bytes(numbers.size() * sizeof(T), '\0');
@@ -36,7 +38,7 @@ std::string pcd_header(const std::string& data, int points) {
 class CloudFile : public ::testing::Test {
  protected:
   RawCloud read(const std::string& name, const std::string& bytes) {
-    return read_cloud_file(folder_.write(name, bytes));
+    return read_cloud_file(folder_.write(name, bytes), kMaxPoints);
   }
   std::string error(const std::string& name, const std::string& bytes) {
     return error_of<InputError>([&] { read(name, bytes); });
@@ -128,6 +130,54 @@ TEST_F(CloudFile, LeavesOutWhatIsNotFinite) {
   const std::vector<float> rows = {nan_, nan_, nan_, 0.0F, 1.0F, 2.0F, 3.0F, 0.0F};
   EXPECT_THAT(read("a.pcd", pcd_header("binary", 2) + bytes_of(rows)).points,
               ElementsAre(Eigen::Vector3f(1.0F, 2.0F, 3.0F)));
+}
+
+TEST_F(CloudFile, WithNumbersOf8BytesIsRead) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS timestamp x y z\nSIZE 8 4 4 8\nTYPE U F F I\nCOUNT 1 1 1 1\n"
+      "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ";
+  const std::vector<Eigen::Vector3f> points = {{1.5F, -2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}};
+  EXPECT_EQ(
+      read("a.pcd", header + "ascii\n1700000000000000000 1.5 -2 3\n1700000000000000001 4 5 -6\n")
+          .points,
+      points);
+  const std::string rows = bytes_of<std::uint64_t>({1'700'000'000'000'000'000}) +
+                           bytes_of<float>({1.5F, -2.0F}) + bytes_of<std::int64_t>({3}) +
+                           bytes_of<std::uint64_t>({1'700'000'000'000'000'001}) +
+                           bytes_of<float>({4.0F, 5.0F}) + bytes_of<std::int64_t>({-6});
+  EXPECT_EQ(read("a.pcd", header + "binary\n" + rows).points, points);
+}
+
+TEST_F(CloudFile, WithFloatsOf1Or2BytesIsNamed) {
+  for (const std::string size : {"1", "2"}) {
+    const std::string header = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 " + size +
+                               "\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 1\nDATA binary\n";
+    EXPECT_THAT(
+        error("a.pcd", header + std::string(12, '\0')),
+        HasSubstr("a.pcd: its field 'z' is a float of " + size + " bytes; write it with 4"));
+  }
+}
+
+TEST_F(CloudFile, WithoutPointsLineHasWidthTimesHeight) {
+  const std::string start = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+  const std::string rows = "DATA ascii\n1 2 3\n4 5 6\n7 8 9\n1 1 1\n";
+  EXPECT_EQ(read("a.pcd", start + "WIDTH 2\nHEIGHT 2\n" + rows).points.size(), 4U);
+  EXPECT_THAT(error("a.pcd", start + rows), HasSubstr("does not tell how many points"));
+}
+
+TEST_F(CloudFile, WithMorePointsThanCanBeSentIsNamed) {
+  const std::string text = "holds 6 points, more than the 5 that can be sent; thin it out";
+  EXPECT_THAT(error("a.pcd", pcd_header("binary", 6) + std::string(96, '\0')), HasSubstr(text));
+  EXPECT_THAT(error("a.bin", std::string(96, '\0')), HasSubstr("a.bin: " + text));
+  EXPECT_THAT(
+      error("a.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nend_header\n"),
+      HasSubstr(text));
+  EXPECT_EQ(read("a.bin", std::string(80, '\0')).points.size(), 5U);
+  // Their product has more than 64 bits.
+  EXPECT_THAT(error("a.pcd",
+                    "VERSION 0.7\nFIELDS x\nSIZE 4\nTYPE F\nCOUNT 1\n"
+                    "WIDTH 9223372036854775808\nHEIGHT 2\nDATA ascii\n"),
+              HasSubstr("tells '9223372036854775808' points"));
 }
 
 TEST_F(CloudFile, ThatCannotBeUsedIsNamed) {

@@ -99,6 +99,28 @@ TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   write_floor(folder_ + "/a.bin");
   EXPECT_THAT(error({"--source", folder_, "--axes", "x,y"}), HasSubstr("'axes' is 'x,y'"));
   EXPECT_THAT(error({"--source", folder_, "--loop"}), HasSubstr("never end"));
+  EXPECT_THAT(error({"--source", folder_, "--near-limit-m", "3", "--far-limit-m", "3"}),
+              HasSubstr("'near-limit-m' is 3, must be below 'far-limit-m', 3"));
+}
+
+TEST_F(LaserScannerProgram, WarnsOnceOfCloudsWithoutPointsUntilOneHasSome) {
+  for (const char* name : {"/a.bin", "/b.bin", "/c.bin"}) write_floor(folder_ + name);
+  const std::vector<std::string> far = {"--source", folder_, "--near-limit-m", "20"};
+  const RunResult logged = write_log(far);
+  const RunResult sent = run({program("limbcast-laser-scanner"), "--source", folder_,
+                              "--near-limit-m", "20", "--lcm-url", private_lcm_url()});
+  for (const RunResult& result : {logged, sent}) {
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output,
+                HasSubstr("a.bin: none of 4000 points lies within 20 to 30 m; give --unit-m"));
+    EXPECT_EQ(result.output.find("none of"), result.output.rfind("none of"));
+    EXPECT_THAT(result.output, HasSubstr("3 frames sent"));
+  }
+  EXPECT_THAT(logged.output, HasSubstr("WARNING"));
+
+  std::ofstream(folder_ + "/a.bin", std::ios::binary) << std::string(16, '\0');
+  EXPECT_THAT(write_log({"--source", folder_}).output,
+              ContainsRegex("a.bin: none of 1 points .*\n.*over: .*a.bin: none of 1 points"));
 }
 
 TEST_F(LaserScannerProgram, SendsIntensitiesAndRingsOfAVelodyneAndReplayKeepsThem) {

@@ -34,12 +34,16 @@ inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distanc
   return packet;
 }
 
+/// What a VLP-16 takes for a packet, by its clock [us].
+inline constexpr std::uint32_t kVlp16Packet_us = 1327;
+
 /// Packets of whole turns: 75 packets of 4.8 degrees each, beginning in front.
 inline std::vector<std::vector<std::uint8_t>> vlp16_turns(int turns, double distance_m) {
   std::vector<std::vector<std::uint8_t>> packets;
   packets.reserve(75 * static_cast<std::size_t>(turns));
   for (int i = 0; i < 75 * turns; ++i) {
-    packets.push_back(vlp16_packet(std::fmod(4.8 * i, 360.0), distance_m));
+    packets.push_back(vlp16_packet(std::fmod(4.8 * i, 360.0), distance_m, 0x22,
+                                   static_cast<std::uint32_t>(i) * kVlp16Packet_us));
   }
   return packets;
 }
@@ -47,18 +51,28 @@ inline std::vector<std::vector<std::uint8_t>> vlp16_turns(int turns, double dist
 /// Begins a pcap file whose times are in microseconds.
 inline constexpr std::uint32_t kPcapMicroseconds = 0xA1B2C3D4;
 
-/// A pcap file with Ethernet frames of one UDP packet each, 1 ms apart from 1000 s on.
+/// A link's header as pcap_of() puts it before each packet. The second: of a virtual network,
+/// number 5.
+inline const std::string kEthernet = std::string(14, '\0');
+inline const std::string kVlan =
+    std::string(12, '\0') + std::string{'\x81', '\0', '\0', '\x05', '\x08', '\0'};
+
+/// A pcap file with Ethernet frames of one UDP packet each, 1 ms apart from 1000 s on. The packets
+/// come by turns from as many senders, 0.0.0.0 and on.
 inline std::string pcap_of(const std::vector<std::vector<std::uint8_t>>& payloads,
-                           std::uint32_t magic = kPcapMicroseconds) {
+                           std::uint32_t magic = kPcapMicroseconds,
+                           const std::string& link = kEthernet, std::size_t num_senders = 1) {
   std::string file;
   const auto number_32 = [&file](std::uint32_t value) {
     file.append(reinterpret_cast<const char*>(&value), 4);
   };
   for (const std::uint32_t value : {magic, 0x00040002U, 0U, 0U, 65535U, 1U}) number_32(value);
   for (std::size_t i = 0; i < payloads.size(); ++i) {
-    std::string frame(14, '\0');                                                     // Ethernet
-    frame += std::string("\x45") + std::string(8, 0) + '\x11' + std::string(10, 0);  // IPv4, UDP
-    frame += std::string(8, '\0');                                                   // UDP
+    std::string frame = link;
+    frame += std::string("\x45") + std::string(8, 0) + '\x11' + std::string(5, 0);  // IPv4, UDP
+    frame += static_cast<char>(i % num_senders);                                    // sender
+    frame += std::string(4, '\0');                                                  // receiver
+    frame += std::string(8, '\0');                                                  // UDP
     frame.append(payloads[i].begin(), payloads[i].end());
     for (const std::size_t value : {std::size_t{1000}, 1000 * i, frame.size(), frame.size()}) {
       number_32(static_cast<std::uint32_t>(value));

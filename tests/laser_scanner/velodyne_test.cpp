@@ -6,10 +6,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "common/input_error.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
 #include "modules/laser_scanner/cloud_source.hpp"
 #include "modules/laser_scanner/packet_source.hpp"
 #include "tests/laser_scanner/velodyne_packets.hpp"
@@ -70,6 +73,35 @@ TEST(Velodyne, LeavesOutTheTurnDuringWhichItWasUnplugged) {
 
 TEST(Velodyne, KeepsATurnThatANetworkDelays) {
   EXPECT_EQ(sweeps_around_a_pause(10'000).size(), 4U);
+}
+
+TEST(Velodyne, PutsPacketsThatOthersOvertookWhereTheyBelong) {
+  auto packets = vlp16_turns(4, 4.0);
+  // Within the first whole turn, packets 37 to 112: one late by a packet, two late by three.
+  std::swap(packets[50], packets[51]);
+  std::rotate(packets.begin() + 80, packets.begin() + 82, packets.begin() + 85);
+  // The one in whose middle the second whole turn ends.
+  std::swap(packets[187], packets[188]);
+
+  const std::vector<Sweep> sweeps = sweeps_of(packets);
+
+  ASSERT_EQ(sweeps.size(), 3U);
+  EXPECT_EQ(sweeps[0].points_m.size(), kReturnsOfATurn);
+  // Six blocks came when their turn was given out.
+  EXPECT_EQ(sweeps[1].points_m.size(), kReturnsOfATurn - 6 * 32);
+  EXPECT_EQ(sweeps[2].points_m.size(), kReturnsOfATurn);
+}
+
+TEST(Velodyne, CutsTurnsOfANarrowFieldOfView) {
+  // Packets 60 to 74 and 0 to 14 look up to 72 degrees aside; the scanner sends no others.
+  const auto all_around = vlp16_turns(4, 4.0);
+  std::vector<std::vector<std::uint8_t>> packets;
+  for (std::size_t i = 0; i < all_around.size(); ++i) {
+    if (i % 75 < 15 || i % 75 >= 60) packets.push_back(all_around[i]);
+  }
+  const std::vector<Sweep> sweeps = sweeps_of(packets);
+  ASSERT_EQ(sweeps.size(), 3U);
+  EXPECT_EQ(sweeps[1].points_m.size(), 30U * 12 * 32);
 }
 
 TEST(Velodyne, PlacesReturnsByAzimuthElevationAndDistance) {
@@ -174,6 +206,7 @@ class Recorded : public ::testing::Test {
     params.model = "auto";
     params.sensor = "roof";
     params.frame = "roof/scan";
+    params.max_points = lcm_io::kMaxPoints;
     return params;
   }
   test::TemporaryFolder folder_;
@@ -197,6 +230,34 @@ TEST_F(Recorded, PcapGivesTurnsInOurFrame) {
   EXPECT_TRUE(source->next());
   EXPECT_FALSE(source->next());
   EXPECT_TRUE(source->ended());
+}
+
+TEST_F(Recorded, PcapOfAVirtualNetworkIsRead) {
+  const std::string path =
+      folder_.write("a.PCAP", pcap_of(vlp16_turns(2, 4.0), kPcapMicroseconds, kVlan));
+  EXPECT_EQ(open_cloud_source(params(path))->next()->cloud.points.size(), kReturnsOfATurn);
+}
+
+TEST_F(Recorded, PcapOfTwoScannersGivesTheFirstOnesTurnsAndSaysSo) {
+  // Both turn alike; one sees a wall in 4 m, the other in 9 m.
+  std::vector<std::vector<std::uint8_t>> packets;
+  const auto other = vlp16_turns(2, 9.0);
+  for (const auto& packet : vlp16_turns(2, 4.0)) {
+    packets.push_back(packet);
+    packets.push_back(other[packets.size() / 2]);
+  }
+  const std::string path =
+      folder_.write("a.pcap", pcap_of(packets, kPcapMicroseconds, kEthernet, 2));
+  const auto source = open_cloud_source(params(path));
+
+  const auto frame = source->next();
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->cloud.points.size(), kReturnsOfATurn);
+  for (const Eigen::Vector3f& point : frame->cloud.points) EXPECT_NEAR(point.norm(), 4.0F, 1e-3F);
+  EXPECT_EQ(source->problem(), path +
+                                   ": packets of 0.0.0.1 are left out, as those of 0.0.0.0 came "
+                                   "first; give each scanner a port and a recording of its own");
 }
 
 TEST_F(Recorded, PcapThatIsTornGivesWhatIsWhole) {
@@ -266,6 +327,31 @@ TEST_F(Recorded, FolderGivesCloudsWithTimesGravityAndTruth) {
   EXPECT_TRUE(source->ended());
 }
 
+TEST_F(Recorded, FolderGivesCloudsOfNamesInCapitalsAndNoFolders) {
+  const std::string row(16, '\0');
+  for (const char* name : {"a.bin", "b.BIN", "c.Bin"}) folder_.write(name, row);
+  std::filesystem::create_directory(folder_ / "d.bin");
+  const auto source = open_cloud_source(params(folder_.path()));
+  EXPECT_TRUE(source->next());
+  EXPECT_TRUE(source->next());
+  EXPECT_TRUE(source->next());
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(Recorded, CloudWithoutPointsWithinTheLimitsSaysWhy) {
+  const auto fault = [this](const std::string& rows) {
+    const std::string path = folder_.write(
+        "a.pcd",
+        "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\n" + rows);
+    return open_cloud_source(params(path))->next()->fault;
+  };
+  EXPECT_EQ(fault("0 0 2000\n0 0 1000\n"), folder_ / "a.pcd" +
+                                               ": none of 2 points lies within 0.3 to 30 m; "
+                                               "give --unit-m 0.001 where they are in millimetres");
+  EXPECT_THAT(fault("nan nan nan\nnan nan nan\n"), HasSubstr("a.pcd: has no finite points"));
+  EXPECT_EQ(fault("0 0 2\n0 0 1000\n"), "");
+}
+
 TEST_F(Recorded, SourcesThatCannotBeOpenedAreNamed) {
   const auto error = [this](const std::string& source) {
     return error_of<InputError>([&] { open_cloud_source(params(source)); });
@@ -275,21 +361,42 @@ TEST_F(Recorded, SourcesThatCannotBeOpenedAreNamed) {
   EXPECT_THAT(error("velodyne:99999"), HasSubstr("'99999' is no UDP port"));
 }
 
-TEST_F(Recorded, LiveScannerIsHeardOnItsPort) {
-  // Some port of this process's own.
-  const int port = 20000 + getpid() % 40000;
-  const auto source = open_cloud_source(params("velodyne:" + std::to_string(port)));
-  EXPECT_TRUE(source->live());
-  const int sender = socket(AF_INET, SOCK_DGRAM, 0);
+sockaddr_in address_of(const char* host, int port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  inet_pton(AF_INET, host, &address.sin_addr);
   address.sin_port = htons(static_cast<std::uint16_t>(port));
-  for (const auto& packet : vlp16_turns(2, 3.0)) {
-    sendto(sender, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&address),
-           sizeof(address));
+  return address;
+}
+
+/// Sends packets from an address of this host to one of its ports.
+class Scanner {
+ public:
+  Scanner(const char* host, int port) : receiver_(address_of("127.0.0.1", port)) {
+    const sockaddr_in own = address_of(host, 0);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof(own)), 0);
   }
-  close(sender);
+  ~Scanner() { close(socket_); }
+  Scanner(const Scanner&) = delete;
+  Scanner& operator=(const Scanner&) = delete;
+  void send(const std::vector<std::uint8_t>& packet) const {
+    sendto(socket_, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&receiver_),
+           sizeof(receiver_));
+  }
+
+ private:
+  int socket_ = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in receiver_;
+};
+
+/// Some port of this process's own.
+int own_port() { return 20000 + getpid() % 40000; }
+
+TEST_F(Recorded, LiveScannerIsHeardOnItsPort) {
+  const auto source = open_cloud_source(params("velodyne:" + std::to_string(own_port())));
+  EXPECT_TRUE(source->live());
+  const Scanner scanner("127.0.0.1", own_port());
+  for (const auto& packet : vlp16_turns(2, 3.0)) scanner.send(packet);
 
   const auto frame = source->next();
 
@@ -299,8 +406,29 @@ TEST_F(Recorded, LiveScannerIsHeardOnItsPort) {
   EXPECT_FALSE(source->ended());
 }
 
+TEST_F(Recorded, LiveScannersOnOnePortAreNotMixed) {
+  const auto source = open_cloud_source(params("velodyne:" + std::to_string(own_port())));
+  const Scanner first("127.0.0.1", own_port());
+  const Scanner second("127.0.0.2", own_port());
+  const auto others = vlp16_turns(2, 9.0);
+  const auto packets = vlp16_turns(2, 3.0);
+  // One whole turn of each, as the system holds no more for a receiver.
+  for (std::size_t i = 37; i <= 112; ++i) {
+    first.send(packets[i]);
+    second.send(others[i]);
+  }
+
+  const auto frame = source->next();
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->cloud.points.size(), kReturnsOfATurn);
+  for (const Eigen::Vector3f& point : frame->cloud.points) EXPECT_NEAR(point.norm(), 3.0F, 1e-3F);
+  EXPECT_THAT(source->problem(),
+              HasSubstr(": packets of 127.0.0.2 are left out, as those of 127.0.0.1 came first"));
+}
+
 TEST_F(Recorded, LiveScannerThatSendsNothingIsTold) {
-  CloudSourceParams live = params("velodyne:" + std::to_string(20000 + getpid() % 40000));
+  CloudSourceParams live = params("velodyne:" + std::to_string(own_port()));
   EXPECT_EQ(open_cloud_source(live)->problem(), "");
   live.stall_timeout_s = 0.0;
   EXPECT_THAT(open_cloud_source(live)->problem(),
