@@ -20,9 +20,14 @@ std::string folder_of(const std::string& path) {
 
 }  // namespace
 
-void check_output_file(const std::string& option, const std::string& path) {
+void check_output_file(const std::string& option, const std::string& path,
+                       const std::vector<std::string>& inputs) {
   if (path.empty()) return;
   std::error_code ignored;
+  for (const std::string& input : inputs) {
+    if (fs::equivalent(path, input, ignored))
+      throw UsageError(path + ": is what is read; choose another " + option);
+  }
   if (fs::is_directory(path, ignored))
     throw UsageError(path + ": is a folder; give a file to " + option);
   const std::string folder = folder_of(path);

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace limbcast::config {
 
 /// Throws UsageError where no file can be written to `path`, which the user gave to `option` (e.g.
 /// "--output"); an empty path is none given. To be asked before the work whose result goes there:
-/// it may take minutes.
-void check_output_file(const std::string& option, const std::string& path);
+/// it may take minutes. `inputs` are files that are read: to be written over one of them is refused
+/// too.
+void check_output_file(const std::string& option, const std::string& path,
+                       const std::vector<std::string>& inputs = {});
 
 }  // namespace limbcast::config

@@ -148,9 +148,12 @@ std::vector<BodyPoses> read_lines(std::istream& in, const std::string& name) {
 
 std::vector<BodyPoses> read_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file)
+  const bool is_open = file.is_open();
+  std::vector<BodyPoses> frames = read_lines(file, path);
+  // A folder can be opened, but not read.
+  if (!is_open || file.bad())
     throw InputError(path + ": cannot be read; give a file that limbcast-export-poses wrote");
-  return read_lines(file, path);
+  return frames;
 }
 
 }  // namespace limbcast::pose_json

@@ -36,6 +36,8 @@ void visit_folder(const std::string& folder, const Take& take) {
   for (const RecordedFrame& frame : find_recording(folder, kNames, {}).frames) {
     const EncodedImage left = read_encoded_image(frame.first_path);
     const EncodedImage right = read_encoded_image(frame.second_path);
+    check_8_bit(left, frame.first_path);
+    check_8_bit(right, frame.second_path);
     check_not_told_to_end();
     if (!take({frame.time.name, decode_grey(left, frame.first_path),
                decode_grey(right, frame.second_path)}))

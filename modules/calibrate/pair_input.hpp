@@ -11,7 +11,7 @@
 
 namespace limbcast::calibrate {
 
-/// Throws std::runtime_error where SIGINT or SIGTERM came: nobody wants the result any more.
+/// Throws std::runtime_error where a signal to end came: nobody wants the result any more.
 void check_not_told_to_end();
 
 /// Declares --source and what belongs to it.

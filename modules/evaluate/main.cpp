@@ -35,10 +35,10 @@ void declare(config::Section& section, Options& options) {
               "count only persons whose body begins so, e.g. D4,D5 (needs --truth); default: all");
   section.add("json", options.json, "file to write all figures to as JSON");
   section.add("picture", options.picture, "file to draw the distribution of the errors to (PNG)");
-  section.add("channel", options.channel, "channel of the poses in the log");
-  section.add("tracked-channel", options.tracked_channel,
-              "channel of the tracked poses in the log, to compare with the poses");
-  section.add("truth-channel", options.truth_channel, "channel of the truth in the log");
+  section.add_channel("channel", options.channel, "channel of the poses in the log");
+  section.add_channel("tracked-channel", options.tracked_channel,
+                      "channel of the tracked poses in the log, to compare with the poses");
+  section.add_channel("truth-channel", options.truth_channel, "channel of the truth in the log");
   section.add("brief", options.brief, "print the main figures in one line instead of the table");
   section.add("worst", options.worst, "", "list so many of the worst findings", {0, 1000000});
 }
@@ -50,8 +50,10 @@ void check(const Options& options) {
     throw UsageError("--poses needs --truth DIR: exported poses carry no truth");
   if (!options.bodies.empty() && options.truth.empty())
     throw UsageError("--bodies needs --truth DIR: a log's truth does not name the bodies");
-  config::check_output_file("--json", options.json);
-  config::check_output_file("--picture", options.picture);
+  std::vector<std::string> inputs = truth_files(split_list(options.truth));
+  inputs.insert(inputs.end(), {options.log, options.poses});
+  config::check_output_file("--json", options.json, inputs);
+  config::check_output_file("--picture", options.picture, inputs);
   check_picture_ending(options.picture);
 }
 
@@ -100,6 +102,12 @@ void write_file(const std::string& path, const std::string& text) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
+/// A full disk must not pass for a report.
+void print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw std::runtime_error("cannot write to stdout");
+}
+
 void run(int argc, const char* const* argv) {
   Options options;
   config::Section section("evaluate");
@@ -121,9 +129,7 @@ void run(int argc, const char* const* argv) {
   Report report = make_report(tally);
   const std::vector<Figure> tracking = compare_tracked(options, truth, reported);
   report.figures.insert(report.figures.end(), tracking.begin(), tracking.end());
-  const std::string text =
-      options.brief ? report_line(report, tally) : report_text(report, tally, options.worst);
-  std::fputs(text.c_str(), stdout);
+  print(options.brief ? report_line(report, tally) : report_text(report, tally, options.worst));
   if (!options.json.empty()) write_file(options.json, report_json(report, tally));
   if (!options.picture.empty()) write_picture(options.picture, draw_error_distribution(tally));
 }

@@ -17,7 +17,7 @@ bool ends_with(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-std::vector<std::string> truth_files(const std::string& folder) {
+std::vector<std::string> files_of(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
@@ -66,15 +66,22 @@ bool any_person_counts(const std::vector<TruthFrame>& frames) {
 std::vector<TruthFrame> read_truth_folders(const std::vector<std::string>& folders,
                                            const std::vector<std::string>& bodies) {
   std::vector<TruthFrame> frames;
-  for (const std::string& folder : folders) {
-    for (const std::string& path : truth_files(folder)) frames.push_back(read_frame(path, bodies));
-  }
+  for (const std::string& path : truth_files(folders)) frames.push_back(read_frame(path, bodies));
   if (!bodies.empty() && !any_person_counts(frames))
     throw InputError("no person of the truth has one of the bodies; see \"body\" in NAME_gt.json");
   std::stable_sort(frames.begin(), frames.end(), [](const TruthFrame& a, const TruthFrame& b) {
     return a.poses.stamp.utime < b.poses.stamp.utime;
   });
   return frames;
+}
+
+std::vector<std::string> truth_files(const std::vector<std::string>& folders) {
+  std::vector<std::string> paths;
+  for (const std::string& folder : folders) {
+    const std::vector<std::string> files = files_of(folder);
+    paths.insert(paths.end(), files.begin(), files.end());
+  }
+  return paths;
 }
 
 std::vector<std::string> split_list(const std::string& text) {

@@ -13,6 +13,9 @@ namespace limbcast::evaluate {
 std::vector<TruthFrame> read_truth_folders(const std::vector<std::string>& folders,
                                            const std::vector<std::string>& bodies = {});
 
+/// Their files. Throws InputError for a folder without truth.
+std::vector<std::string> truth_files(const std::vector<std::string>& folders);
+
 /// "a,b" -> {"a", "b"}; empty parts are dropped.
 std::vector<std::string> split_list(const std::string& text);
 

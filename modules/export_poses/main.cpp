@@ -61,7 +61,7 @@ void export_live(const Options& options, const std::string& lcm_url) {
 void run(int argc, const char* const* argv) {
   Options options;
   config::Section section("export_poses");
-  section.add("channel", options.channel, "poses to write: BODY_POSES or TRACKED_POSES");
+  section.add_channel("channel", options.channel, "poses to write: BODY_POSES or TRACKED_POSES");
   section.add_choice("format", options.format, {"json", "text"},
                      "a line of JSON for each frame, or a readable line for each person");
   config::Parser parser("limbcast-export-poses",

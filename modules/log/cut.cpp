@@ -54,7 +54,8 @@ class Selection {
   bool is_in_time(const LogEvent& event) const {
     const double after_s =
         static_cast<double>(event.utime - begin_utime_) / kMicrosecondsPerSecond<double>;
-    return after_s >= options_.from_s && (options_.to_s < 0.0 || after_s <= options_.to_s);
+    return (options_.from_s < 0.0 || after_s >= options_.from_s) &&
+           (options_.to_s < 0.0 || after_s <= options_.to_s);
   }
 
   bool is_in_frames(const LogEvent& event) const {

@@ -10,8 +10,9 @@ namespace limbcast::logs {
 /// Which part of a log is kept; all conditions must hold.
 struct CutOptions {
   std::string in, out;
-  /// Seconds after the first event; to_s < 0: to the end.
-  double from_s = 0.0, to_s = -1.0;
+  /// Seconds after the first event; < 0: no limit. Where the clock was set back, events are earlier
+  /// than the first.
+  double from_s = -1.0, to_s = -1.0;
   /// Frames (different times of capture), from 0, in the order in which they first come, both kept;
   /// to_frame < 0: to the last. What belongs to no frame is kept where its time is theirs.
   int from_frame = 0, to_frame = -1;

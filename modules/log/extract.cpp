@@ -1,6 +1,7 @@
 #include "modules/log/extract.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <limbcast/body_poses_t.hpp>
@@ -47,6 +48,26 @@ void make_folder(const std::string& folder) {
   if (error) throw UsageError(folder + ": cannot be made (" + error.message() + ")");
 }
 
+/// Frames of two runs would be taken for one recording.
+void require_no_recording(const std::string& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder + "/timestamps.csv", error))
+    throw UsageError(folder +
+                     ": holds a recording already; choose another folder or delete this one");
+}
+
+/// Channels may be called what they want, files may not: "../CLOUDS" would be another folder's.
+std::string file_name_of(const std::string& channel) {
+  std::string name = channel;
+  for (char& letter : name) {
+    const bool is_safe = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' ||
+                         letter == '-' || letter == '.';
+    if (!is_safe) letter = '_';
+  }
+  const bool is_hidden = name.empty() || name.front() == '.';
+  return (is_hidden ? "_" : "") + name + ".jsonl";
+}
+
 std::string joined(const std::set<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -84,6 +105,7 @@ class FrameWriter {
  public:
   FrameWriter(const ExtractOptions& options, std::string sensor)
       : options_(options), sensor_(std::move(sensor)) {
+    require_no_recording(options.folder);
     make_folder(options.folder);
   }
 
@@ -169,17 +191,16 @@ class PoseWriter {
       other_sensors_.insert(poses.stamp.sensor);
       return;
     }
-    std::ofstream& file = files_[event.channel];
-    if (!file.is_open()) file.open(options_.folder + "/" + event.channel + ".jsonl");
+    std::ofstream& file = file_of(event.channel);
     file << pose_json::to_line(poses) << '\n';
-    if (!file) throw std::runtime_error(options_.folder + ": cannot write poses there");
+    if (!file) throw cannot_write(event.channel);
     ++lines_;
   }
 
   std::int64_t finish() {
     for (auto& [channel, file] : files_) {
       file.close();
-      if (!file) throw std::runtime_error(options_.folder + ": cannot write poses there");
+      if (!file) throw cannot_write(channel);
     }
     if (lines_ == 0 && !other_sensors_.empty()) throw no_such_sensor(options_, other_sensors_);
     if (lines_ == 0) throw UsageError(options_.in + ": holds no poses; limbcast-replay adds them");
@@ -187,8 +208,26 @@ class PoseWriter {
   }
 
  private:
+  std::ofstream& file_of(const std::string& channel) {
+    std::ofstream& file = files_[channel];
+    if (file.is_open()) return file;
+    const auto [owner, is_new] = owners_.emplace(file_name_of(channel), channel);
+    if (!is_new)
+      throw UsageError(options_.in + ": poses of '" + owner->second + "' and '" + channel +
+                       "' would both be " + owner->first + "; choose one with --channel");
+    file.open(path_of(channel));
+    return file;
+  }
+  std::string path_of(const std::string& channel) const {
+    return options_.folder + "/" + file_name_of(channel);
+  }
+  std::runtime_error cannot_write(const std::string& channel) const {
+    return std::runtime_error(path_of(channel) + ": cannot be written");
+  }
+
   const ExtractOptions& options_;
-  std::map<std::string, std::ofstream> files_;
+  std::map<std::string, std::ofstream> files_;  ///< by channel
+  std::map<std::string, std::string> owners_;   ///< the channel of each file's name
   std::set<std::string> other_sensors_;
   std::int64_t lines_ = 0;
 };

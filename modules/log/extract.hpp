@@ -30,10 +30,12 @@ struct ExtractSummary {
 /// - clouds: NAME.pcd;
 /// with timestamps.csv (gravity where a recording or an option told it) and, where the log has the
 /// truth, NAME_gt.json;
-/// - poses: CHANNEL.jsonl, lines as limbcast-export-poses writes them.
+/// - poses: CHANNEL.jsonl, lines as limbcast-export-poses writes them; what may not stand in a
+///   file's name is '_'.
 ///
 /// Throws config::UsageError where IN is no log, holds nothing of the kind, or images or clouds of
-/// several sensors and none is chosen; std::runtime_error where a file cannot be written.
+/// several sensors and none is chosen, and where the folder holds a recording; std::runtime_error
+/// where a file cannot be written.
 ExtractSummary extract(const ExtractOptions& options);
 
 }  // namespace limbcast::logs

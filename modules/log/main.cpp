@@ -77,7 +77,8 @@ void run_cut(int argc, const char* const* argv) {
   CutOptions options;
   Channels channels;
   config::Section section("log");
-  section.add("from-s", options.from_s, "s", "begin this long after the first event", {0.0, 1e9});
+  section.add("from-s", options.from_s, "s", "begin this long after the first event; -1: no limit",
+              {-1.0, 1e9});
   section.add("to-s", options.to_s, "s", "end this long after the first event; -1: at the end",
               {-1.0, 1e9});
   section.add("from-frame", options.from_frame, "", "first frame, counted from 0", {0, 1000000000});
@@ -124,7 +125,7 @@ void run_extract(int argc, const char* const* argv) {
   section.add_choice("what", what, {"images", "clouds", "poses"},
                      "pictures with calibration, PCD clouds, or poses as JSON lines");
   section.add("sensor", options.sensor, "only of this sensor; needed where there are several");
-  section.add("truth-channel", options.truth_channel, "channel of the truth");
+  section.add_channel("truth-channel", options.truth_channel, "channel of the truth");
   channels.declare(section);
   config::Parser parser("limbcast-log extract",
                         "Writes a log's frames as a folder that limbcast's sources read.");

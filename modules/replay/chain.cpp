@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/module.hpp"
 
@@ -114,7 +115,8 @@ void Chain::work(const LogEvent& event, const Reconstructor& stereo, FrameResult
     case Level::kSegments:
       return from_segments(event.utime, decode<segments_t>(event.data), result);
     case Level::kPoses:
-      result.persons = decode<body_poses_t>(event.data).num_persons;
+      result.persons =
+          static_cast<int>(lcm_io::from_message(decode<body_poses_t>(event.data)).persons.size());
       return;
   }
 }

@@ -72,6 +72,10 @@ void report(const ReplaySummary& summary, const std::string& in, double seconds)
     log(LogLevel::kWarning, std::to_string(summary.malformed) +
                                 " malformed messages, nothing was made from them; the first: " +
                                 summary.first_malformed);
+  if (summary.untracked > 0)
+    log(LogLevel::kWarning, std::to_string(summary.untracked) +
+                                " frames came after a later one of their sensor and were not "
+                                "tracked; was the clock set back?");
   log(LogLevel::kInfo, std::to_string(summary.frames) + " frames, " +
                            std::to_string(summary.persons) + " persons, " +
                            rate_text(summary.frames, seconds));
@@ -110,6 +114,10 @@ void run(int argc, const char* const* argv) {
   if (summary.failed > 0)
     throw std::runtime_error(std::to_string(summary.failed) +
                              " frames could not be worked on; the first: " + summary.first_failure);
+  if (summary.frames == 0)
+    throw std::runtime_error(options.replay.in +
+                             ": every frame is malformed, nothing was made from them; the first: " +
+                             summary.first_malformed);
 }
 
 }  // namespace

@@ -176,7 +176,10 @@ class Replay {
     if (!tracker_ || event.channel != channels_.body_poses_channel) return;
     try {
       const auto tracked = tracker_->process(lcm_io::decode<body_poses_t>(event.data));
-      if (tracked) writer.write(event.utime, channels_.tracked_poses_channel, *tracked);
+      if (tracked)
+        writer.write(event.utime, channels_.tracked_poses_channel, *tracked);
+      else
+        ++summary_.untracked;
     } catch (const lcm_io::MessageError&) {
     }
   }

@@ -21,6 +21,7 @@ struct ReplayOptions {
 struct ReplaySummary {
   int frames = 0, persons = 0;
   int malformed = 0, failed = 0;
+  int untracked = 0;  ///< came after a later frame of their sensor: the tracker leaves them out
   std::string first_malformed, first_failure;
   std::int64_t torn_bytes = 0;     ///< of IN behind its last whole message
   std::int64_t damaged_bytes = 0;  ///< of IN between its messages

@@ -18,6 +18,9 @@ void run(int argc, const char* const* argv) {
   module.subscribe_frames<body_poses_t>(options.body_poses_channel, [&](const body_poses_t& poses) {
     if (const auto tracked = stage.process(poses))
       module.publish_frame(options.tracked_poses_channel, *tracked);
+    else
+      module.report_problem(options.body_poses_channel + ": a frame of '" + poses.stamp.sensor +
+                            "' came after a later one and was left out; was the clock set back?");
   });
   module.run();
 }

@@ -1,7 +1,6 @@
 #include "modules/tracker/sides.hpp"
 
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "common/human_model/mean_joint_distance.hpp"
@@ -25,7 +24,7 @@ BodyPose with_sides_exchanged(const BodyPose& pose) {
     std::swap(exchanged.link_lengths_m[index(left)], exchanged.link_lengths_m[index(right)]);
   }
   for (Pointing& pointing : exchanged.pointing) pointing.side = opposite(pointing.side);
-  exchanged.angles_rad.fill(std::numeric_limits<float>::quiet_NaN());
+  exchanged.angles_rad = untold_angles();
   return exchanged;
 }
 

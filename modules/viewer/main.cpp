@@ -53,12 +53,13 @@ void declare(config::Section& section, Options& options) {
               {-90.0F, 90.0F});
   section.add("zoom", options.orbit.zoom, "", "and so many times nearer than to see all of them",
               {kMinZoom, kMaxZoom});
-  section.add("point-cloud-channel", options.channels.point_cloud, "clouds to draw");
-  section.add("segments-channel", options.channels.segments, "segments to draw");
-  section.add("poses-channel", options.channels.poses,
-              "poses to draw: BODY_POSES or TRACKED_POSES");
-  section.add("truth-channel", options.channels.truth, "truth to draw");
-  section.add("status-channel", options.channels.status, "rates and latencies of the modules");
+  section.add_channel("point-cloud-channel", options.channels.point_cloud, "clouds to draw");
+  section.add_channel("segments-channel", options.channels.segments, "segments to draw");
+  section.add_channel("poses-channel", options.channels.poses,
+                      "poses to draw: BODY_POSES or TRACKED_POSES");
+  section.add_channel("truth-channel", options.channels.truth, "truth to draw");
+  section.add_channel("status-channel", options.channels.status,
+                      "rates and latencies of the modules");
 }
 
 bool to_window(const Options& options) { return options.png.empty() && options.video.empty(); }
@@ -90,6 +91,11 @@ class Output {
       if (video_) video_->write(frame);
   }
 
+  /// After the last frame.
+  void finish() {
+    if (video_) video_->finish();
+  }
+
  private:
   Options options_;
   std::unique_ptr<SheetVideo> video_;
@@ -114,6 +120,7 @@ std::size_t write_log(const Options& options, LogFrames& log, const std::vector<
       frames.push_back(log.frame(numbers[i]));
     output.write(frames);
   }
+  output.finish();
   return i;
 }
 
@@ -234,6 +241,7 @@ void view_live(const Options& options, const std::string& lcm_url) {
     if (command == Command::kPause) paused = !paused;
     if (command == Command::kNext) paused = step = true;
   }
+  if (output) output->finish();
 }
 
 void run(int argc, const char* const* argv) {
@@ -250,7 +258,7 @@ void run(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
   config::configure_log("viewer", parser.common().log_level);
-  config::check_output_file("--video", options.video);
+  config::check_output_file("--video", options.video, {options.log});
   lcm_io::install_signal_handlers();
   if (options.log.empty()) {
     view_live(options, parser.common().lcm_url);

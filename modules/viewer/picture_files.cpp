@@ -46,6 +46,19 @@ void SheetVideo::write(const DrawnFrame& frame) {
   if (!writer_.isOpened() && !writer_.open(path_, codec_, frames_per_s_, frame.sheet.size()))
     throw std::runtime_error(path_ + ": cannot be written");
   writer_.write(frame.sheet);
+  ++num_frames_;
+}
+
+void SheetVideo::finish() {
+  if (num_frames_ == 0) return;
+  // The writer tells nobody that a disk is full. The count of frames comes last into a file, so it
+  // is right only where all before it was written. Other backends than the writer's may wait
+  // without end for the rest of a torn file.
+  const int backend = static_cast<int>(writer_.get(cv::CAP_PROP_BACKEND));
+  writer_.release();
+  const cv::VideoCapture written(path_, backend);
+  if (written.get(cv::CAP_PROP_FRAME_COUNT) < num_frames_)
+    throw std::runtime_error(path_ + ": cannot be written to its end; is the disk full?");
 }
 
 }  // namespace limbcast::viewer

@@ -27,13 +27,16 @@ class SheetVideo {
  public:
   /// Throws InputError for another ending.
   SheetVideo(std::string path, double frames_per_s);
-  /// Throws std::runtime_error where the file cannot be written.
+  /// Throws std::runtime_error where the file cannot be made.
   void write(const DrawnFrame& frame);
+  /// After the last frame. Throws std::runtime_error where the file does not hold all of them.
+  void finish();
 
  private:
   std::string path_;
   double frames_per_s_;
   int codec_;
+  int num_frames_ = 0;
   cv::VideoWriter writer_;
 };
 

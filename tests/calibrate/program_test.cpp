@@ -203,6 +203,26 @@ TEST(CalibrateProgram, NamesItsCommandsWhereOneIsUnknown) {
             "or options alone to calibrate, see limbcast-calibrate --help\n");
 }
 
+TEST(CalibrateProgram, RefusesToWriteOverAPictureOfItsSource) {
+  const TemporaryFolder folder;
+  const std::string picture = folder.write("01_left.jpg", "a picture");
+  folder.write("calibration.yml", "old");
+  const auto refusal_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--source", folder.path()});
+    const Outcome outcome = run_program("limbcast-calibrate", arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.err;
+  };
+  const std::string is_read = picture + ": is what is read; choose another ";
+  EXPECT_THAT(refusal_of({"--output", picture}), HasSubstr(is_read + "--output"));
+  EXPECT_THAT(refusal_of({"mounting", "--output", picture}), HasSubstr(is_read + "--output"));
+  EXPECT_THAT(refusal_of({"--output", folder / "calibration.yml", "--picture", picture}),
+              HasSubstr(is_read + "--picture"));
+  // Its calibration may be written anew, so that what is said next is that a picture is missing.
+  EXPECT_THAT(refusal_of({"--output", folder / "calibration.yml"}),
+              ::testing::Not(HasSubstr("is what is read")));
+}
+
 TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
   const auto expect_refusal = [&](std::vector<std::string> arguments, const std::string& text) {
     arguments.insert(arguments.end(), {"--source", "/nowhere"});

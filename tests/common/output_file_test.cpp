@@ -42,6 +42,17 @@ TEST(OutputFile, IsRefusedWhereAFolderStands) {
   EXPECT_EQ(refusal_of(folder.path()), folder.path() + ": is a folder; give a file to --output");
 }
 
+TEST(OutputFile, IsRefusedWhereItIsRead) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.log", "text");
+  std::filesystem::create_symlink(in, folder / "link.log");
+  EXPECT_EQ(test::error_of<UsageError>([&] {
+              check_output_file("--json", folder / "link.log", {folder / "none", in});
+            }),
+            folder / "link.log" + ": is what is read; choose another --json");
+  EXPECT_NO_THROW(check_output_file("--json", folder / "new.log", {in}));
+}
+
 /// The administrator may write everywhere, so that those who test as such ask as somebody else.
 void give_up_rights() {
   constexpr uid_t kNobody = 65534;

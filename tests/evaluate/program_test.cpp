@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limbcast/body_poses_t.hpp>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@ namespace {
 
 using limbcast::test::Outcome;
 using limbcast::test::run_program;
+using limbcast::test::shell_quoted;
 using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -138,6 +140,44 @@ TEST(EvaluateProgram, RefusesFilesThatItCannotWriteBeforeItReadsAnything) {
   EXPECT_THAT(refusal_of("--json", "/none/a.json"), HasSubstr("no folder /none; make it"));
   EXPECT_THAT(refusal_of("--picture", "/none/a.png"), HasSubstr("no folder /none; make it"));
   EXPECT_THAT(refusal_of("--picture", "a.odt"), HasSubstr("a.odt: no picture format"));
+}
+
+TEST(EvaluateProgram, RefusesToWriteOverWhatItReads) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  folder.write("poses.jsonl", R"({"utime":5,"persons":[]})");
+  folder.write("truth/a_gt.json", R"({"utime":5,"persons":[]})");
+  const std::vector<std::string> log = {folder / "out.log"};
+  const std::vector<std::string> poses = {"--poses", folder / "poses.jsonl", "--truth",
+                                          folder / "truth"};
+  const auto expect_refusal = [](std::vector<std::string> arguments, const std::string& option,
+                                 const std::string& path) {
+    const auto size = std::filesystem::file_size(path);
+    arguments.insert(arguments.end(), {option, path});
+    const Outcome outcome = evaluate_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err,
+              "limbcast-evaluate: " + path + ": is what is read; choose another " + option + "\n");
+    EXPECT_EQ(std::filesystem::file_size(path), size);
+  };
+  expect_refusal(log, "--json", folder / "out.log");
+  expect_refusal(log, "--picture", folder / "out.log");
+  expect_refusal(poses, "--json", folder / "poses.jsonl");
+  expect_refusal(poses, "--json", folder / "truth/a_gt.json");
+}
+
+TEST(EvaluateProgram, SaysThatItsReportCouldNotBeWritten) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  const std::string program = std::string(LIMBCAST_BIN_DIR) + "/limbcast-evaluate";
+  const int status = std::system((shell_quoted(program) + " " + shell_quoted(folder / "out.log") +
+                                  " >/dev/full 2>" + shell_quoted(folder / "err"))
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  std::ifstream err(folder / "err");
+  std::string line;
+  std::getline(err, line);
+  EXPECT_EQ(line, "limbcast-evaluate: cannot write to stdout");
 }
 
 TEST(EvaluateProgram, JudgesALogOfARoomWithoutPeople) {

@@ -32,6 +32,16 @@ TEST_F(Cut, OfEverythingIsTheSameFileByteForByte) {
   EXPECT_EQ(bytes_of(out_), bytes_of(in_));
 }
 
+TEST_F(Cut, KeepsWhatIsBeforeTheFirstEventUnlessABeginIsAskedFor) {
+  lcm_io::LogWriter log(in_);
+  for (const int frame : {5, 3, 4, 6})  // the clock was set back once
+    log.write(kBegin + frame * kFrame_us, "BODY_POSES", poses_of_frame(frame));
+  log.close();
+  EXPECT_EQ(cut(options_).events_kept, 4);
+  options_.from_s = 0.0;
+  EXPECT_EQ(cut(options_).events_kept, 2);
+}
+
 TEST_F(Cut, ByTimeKeepsBytesTimesNumbersAndOrder) {
   options_.from_s = 0.3;
   options_.to_s = 0.5;

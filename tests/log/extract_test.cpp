@@ -13,6 +13,7 @@
 #include "common/pose_json/pose_lines.hpp"
 #include "tests/log/logs.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::logs {
 namespace {
@@ -130,6 +131,42 @@ TEST_F(Extract, NamesTheSensorsWhosePosesThereAre) {
   } catch (const config::UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("holds nothing of sensor 'none', but of front"));
   }
+}
+
+/// A log with a frame of poses on each channel.
+void write_poses_on(const std::string& path, const std::vector<std::string>& channels) {
+  lcm_io::LogWriter log(path);
+  for (const std::string& channel : channels) log.write(kBegin, channel, poses_of_frame(0));
+  log.close();
+}
+
+TEST_F(Extract, OfPosesNamesItsFilesSafely) {
+  write_poses_on(log_, {"../../evil", "robot1/BODY_POSES", ".hidden", "A-1.b"});
+  EXPECT_EQ(extract(options(log_, Extracted::kPoses)).frames, 4);
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(out_))
+    names.push_back(file.path().filename());
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("_.._.._evil.jsonl", "_.hidden.jsonl",
+                                                     "robot1_BODY_POSES.jsonl", "A-1.b.jsonl"));
+}
+
+TEST_F(Extract, OfPosesDoesNotMixChannelsInAFile) {
+  write_poses_on(log_, {"a/b", "a_b"});
+  EXPECT_THAT(
+      test::error_of<config::UsageError>([&] { extract(options(log_, Extracted::kPoses)); }),
+      HasSubstr("'a/b' and 'a_b' would both be a_b.jsonl; choose one with --channel"));
+}
+
+TEST_F(Extract, RefusesAFolderThatHoldsARecording) {
+  const ExtractOptions images =
+      options(test::repository_file("logs/multi.log"), Extracted::kImages);
+  extract(images);
+  const std::vector<char> calibration = bytes_of(out_ + "/calibration.yml");
+  write_bytes(out_ + "/timestamps.csv", {'m', 'i', 'n', 'e'});
+  EXPECT_EQ(test::error_of<config::UsageError>([&] { extract(images); }),
+            out_ + ": holds a recording already; choose another folder or delete this one");
+  EXPECT_EQ(bytes_of(out_ + "/timestamps.csv").size(), 4U);
+  EXPECT_EQ(bytes_of(out_ + "/calibration.yml"), calibration);
 }
 
 TEST_F(Extract, RefusesALogWithNothingOfTheKind) {

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/module_status_t.hpp>
+#include <limbcast/stereo_images_t.hpp>
 
+#include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/module.hpp"
 #include "tests/replay/log_tools.hpp"
 #include "tests/support/child_process.hpp"
@@ -165,6 +167,22 @@ TEST_F(ReplayProgram, CountsMalformedMessagesAndGoesOn) {
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("4 malformed messages"));
   EXPECT_THAT(on_channel(events_of(path("out.log")), "BODY_POSES"), SizeIs(2));
+}
+
+TEST_F(ReplayProgram, FailsWhereEveryFrameIsMalformed) {
+  std::vector<LogEvent> events = two_frames_;
+  for (LogEvent& event : events) {
+    if (event.channel != "STEREO_IMAGES") continue;
+    auto message = lcm_io::decode<stereo_images_t>(event.data);
+    message.left.width = -1;
+    message.encode(event.data.data(), 0, static_cast<int>(event.data.size()));
+  }
+  const auto result = replay({write("in.log", events), path("out.log")});
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("2 malformed messages"));
+  EXPECT_THAT(result.output,
+              HasSubstr(path("in.log") + ": every frame is malformed, nothing was made from them"));
+  EXPECT_TRUE(same(events_of(path("out.log")), events));
 }
 
 TEST_F(ReplayProgram, ReplaysWhatATornLogHolds) {

@@ -64,6 +64,34 @@ TEST(TrackerProcess, PublishesTrackedPosesWithIdentitiesThatStay) {
   EXPECT_EQ(process.wait(), 0);
 }
 
+TEST(TrackerProcess, TellsOfAFrameThatCameAfterALaterOne) {
+  const std::string url = test::private_lcm_url();
+  const std::string folder = test::temporary_folder("tracker_late_frame");
+  lcm_io::Bus bus(url);
+  std::optional<module_status_t> status;
+  bus.subscribe<module_status_t>("MODULE_STATUS", lcm_io::Keep::kAll,
+                                 [&](const module_status_t& message) { status = message; });
+  test::ChildProcess process({test::program("limbcast-tracker"), "--lcm-url", url},
+                             folder + "/tracker.txt");
+  const auto handle = [&] {
+    bus.handle(std::chrono::milliseconds(100));
+    ASSERT_TRUE(process.running()) << process.output();
+  };
+  while (!status) ASSERT_NO_FATAL_FAILURE(handle());
+  for (int frame = 0; frame < 2; ++frame) {
+    body_poses_t poses = poses_at(1'000'000 - frame * 100'000, "front", 0);
+    poses.stamp.sequence = frame;
+    bus.publish("BODY_POSES", poses);
+    while (status->num_received <= frame) ASSERT_NO_FATAL_FAILURE(handle());
+  }
+  EXPECT_EQ(status->num_published, 1);
+  EXPECT_EQ(status->last_error,
+            "BODY_POSES: a frame of 'front' came after a later one and was left out; was the clock "
+            "set back?");
+  process.signal(SIGTERM);
+  EXPECT_EQ(process.wait(), 0);
+}
+
 class ReplayWithTracker : public ::testing::Test {
  protected:
   ReplayWithTracker() {
@@ -93,6 +121,19 @@ TEST_F(ReplayWithTracker, AddsTrackedPosesAfterThePosesOfEachSensor) {
     EXPECT_EQ(message.persons[0].id, 1);
   }
   EXPECT_EQ(on_channel(events_of(out_), "FOREIGN").size(), 4U);
+}
+
+TEST_F(ReplayWithTracker, CountsFramesThatAreNotTracked) {
+  {
+    lcm_io::LogWriter log(in_);
+    for (const int frame : {0, 3, 1, 2, 4})
+      log.write(frame, "BODY_POSES", poses_at(1000 + frame * 100'000, "front", frame));
+    log.close();
+  }
+  const auto run = test::run({test::program("limbcast-replay"), "--tracker", in_, out_});
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("2 frames came after a later one of their sensor"));
+  EXPECT_EQ(on_channel(events_of(out_), "TRACKED_POSES").size(), 3U);
 }
 
 TEST_F(ReplayWithTracker, NeedsTheTrackerToBeginWithPoses) {

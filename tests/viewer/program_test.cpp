@@ -8,6 +8,7 @@
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "tests/common/run_program.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/viewer/scene.hpp"
 
 namespace limbcast::viewer {
@@ -93,6 +94,20 @@ TEST(ViewerProgram, WritesAVideo) {
   EXPECT_GT(std::filesystem::file_size(folder / "out.avi"), 1000U);
 }
 
+TEST(ViewerProgram, FailsWhereTheDiskTakesOnlyAPartOfTheVideo) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 2, true);
+  for (const std::string name : {"out.avi", "out.mp4"}) {
+    // Files of at most 8 blocks (4 kB), less than a sheet; the signal is ignored, so that writing
+    // fails as on a full disk.
+    const auto run =
+        test::run({"/bin/sh", "-c", R"(trap '' XFSZ; ulimit -f 8; exec "$@")", "sh",
+                   test::program("limbcast-viewer"), folder / "out.log", "--video", folder / name});
+    EXPECT_EQ(run.exit_code, 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr(name + ": cannot be written"));
+  }
+}
+
 TEST(ViewerProgram, SaysWhenThereIsNothingToDraw) {
   const TemporaryFolder folder;
   lcm_io::LogWriter log(folder / "out.log");
@@ -120,6 +135,9 @@ TEST(ViewerProgram, RefusesOutputsItCannotWrite) {
   EXPECT_EQ(view({folder / "out.log", "--png", folder / "file"}).exit_code, 2);
   EXPECT_EQ(view({folder / "out.log", "--video", folder / "out.gif"}).exit_code, 2);
   EXPECT_EQ(view({folder / "out.log", "--video", folder / "none/out.avi"}).exit_code, 2);
+  std::filesystem::create_symlink(folder / "out.log", folder / "out.avi");
+  EXPECT_THAT(view({folder / "out.log", "--video", folder / "out.avi"}).err,
+              HasSubstr("is what is read; choose another --video"));
 }
 
 }  // namespace
