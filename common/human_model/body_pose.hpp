@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -34,13 +35,20 @@ struct Pointing {
 inline constexpr int kErrorTermCount = 4;
 inline constexpr int kDegreesOfFreedom = 28;
 
+inline std::array<float, kDegreesOfFreedom> untold_angles() {
+  std::array<float, kDegreesOfFreedom> angles{};
+  angles.fill(std::numeric_limits<float>::quiet_NaN());
+  return angles;
+}
+
 /// Pose of one person.
 struct BodyPose {
   std::int32_t id = 0;  ///< BODY_POSES: the segment's; TRACKED_POSES: the person's, over time
   std::array<JointEstimate, kJointCount> joints;
   std::array<float, kJointCount>
       link_lengths_m{};  ///< link i of Table I ends at its joint; 0 = left out
-  std::array<float, kDegreesOfFreedom> angles_rad{};  ///< order: human model file; NaN = left out
+  std::array<float, kDegreesOfFreedom> angles_rad =
+      untold_angles();      ///< order: human model file; NaN = left out
   float confidence = 0.0F;  ///< 0 to 1: probability that this is a person in this pose
   float error = 0.0F;       ///< Eq. 1 (paper), or the cost per point (refined)
   std::array<float, kErrorTermCount>

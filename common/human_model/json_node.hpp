@@ -16,7 +16,7 @@ class JsonNode {
 
   bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
   JsonNode at(const std::string& key) const;
-  /// Element of an array that must have exactly `size` elements.
+  /// Element of an array that must have as many.
   JsonNode element(std::size_t index) const;
   std::size_t size() const;
 

@@ -59,7 +59,7 @@ TEST(RefinedCost, HoldsAGuessedHeadLessThanOneInSight) {
   EXPECT_GT(seen, cost_of_moving() + 1.0);
 }
 
-TEST(RefinedCost, HasTheGradientOfItsDifferences) {
+TEST(RefinedCost, HasTheGradientOfItsDifferencesByThePoints) {
   BodyState body = testing::standing_body(2.5, 20.0 * kDegree);
   const Segment segment = testing::seen(body);
   const RefinedParams params;
@@ -67,7 +67,6 @@ TEST(RefinedCost, HasTheGradientOfItsDifferences) {
   ASSERT_TRUE(observation);
   // Off the minimum, so that the gradient is not zero.
   for (auto& point : body.points) point += Eigen::Vector3d(0.01, -0.008, 0.012);
-  refined::Solver solver(*observation, params);
   // Priors only: the data term re-assigns points and rounds pixels on the way.
   const auto cost_at = [&](const BodyState& at) {
     refined::NormalEquations equations;

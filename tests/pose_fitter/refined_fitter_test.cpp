@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "common/angle.hpp"
+#include "common/human_model/human_model.hpp"
 #include "modules/pose_fitter/refined/evidence.hpp"
+#include "modules/pose_fitter/refined/links_and_angles.hpp"
 #include "modules/pose_fitter/refined/pose_search.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
@@ -64,6 +66,45 @@ TEST(RefinedFitter, TellsWhereAndWithWhichArmAPersonPoints) {
     EXPECT_LT(angle_deg(pose->pointing[0].direction, direction.cast<float>()), 4.0);
     EXPECT_GT(pose->pointing[0].sigma_rad, 0.0F);
   }
+}
+
+/// Angle of the model's degree of freedom of that name [degrees].
+double angle_of_deg(const BodyPose& pose, const std::string& name) {
+  const HumanModel model = load_human_model();
+  for (int i = 0; i < kDegreesOfFreedom; ++i)
+    if (model.degrees_of_freedom[i].name == name) return pose.angles_rad[i] / kDegree;
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
+TEST(RefinedFitter, TellsLengthsAndAnglesOfLinks) {
+  BodyState body = testing::standing_body(2.5, 20.0 * kDegree);
+  // Straight ahead of the body, level.
+  testing::point_with(body, 0, body.front());
+
+  const auto pose = fit(testing::seen(body));
+
+  ASSERT_TRUE(pose);
+  const auto length_m = [&](Joint from, Joint to) {
+    return (body.points[index(to)] - body.points[index(from)]).norm();
+  };
+  EXPECT_NEAR(pose->link_lengths_m[index(Joint::kKneeRight)],
+              length_m(Joint::kHipRight, Joint::kKneeRight), 0.05);
+  EXPECT_NEAR(pose->link_lengths_m[index(Joint::kElbowLeft)],
+              length_m(Joint::kShoulderLeft, Joint::kElbowLeft), 0.05);
+  EXPECT_EQ(pose->link_lengths_m[index(Joint::kHead)], 0.0F);
+  EXPECT_NEAR(angle_of_deg(*pose, "shoulder_left_flexion"), 90.0, 12.0);
+  EXPECT_NEAR(angle_of_deg(*pose, "shoulder_right_flexion"), 0.0, 15.0);
+  EXPECT_NEAR(angle_of_deg(*pose, "elbow_left_flexion"), 0.0, 20.0);
+  EXPECT_NEAR(angle_of_deg(*pose, "hip_left_flexion"), 0.0, 12.0);
+}
+
+TEST(RefinedFitter, TellsNoAngleAndNoLengthOfALinkThatIsLeftOut) {
+  BodyPose pose;
+  const HumanModel model = load_human_model();
+  refined::add_links_and_angles(model, {0.0F, 0.0F, -1.0F}, {0.0F, 1.0F, 0.0F}, pose);
+  for (const float angle : pose.angles_rad) EXPECT_TRUE(std::isnan(angle));
+  for (const float length_m : pose.link_lengths_m) EXPECT_EQ(length_m, 0.0F);
 }
 
 TEST(RefinedFitter, ReportsNoPointingWhenArmsHang) {

@@ -20,7 +20,7 @@ struct LinkDensity {
 /// findBestFit: which points are near a place, and how many are near a link.
 class Cluster {
  public:
-  /// Points that are not finite or lie behind the sensor are left out.
+  /// Points that are not finite, out of reach or at the sensor itself are left out.
   Cluster(const std::vector<Eigen::Vector3f>& points_m, const Eigen::Vector3f& seed_m,
           const ClusterParams& params);
 

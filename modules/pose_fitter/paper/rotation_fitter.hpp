@@ -18,7 +18,7 @@ struct FittedPose {
   float error = 0.0F;                          ///< their sum
 };
 
-/// Axes of the body (columns left, up, forward) of rotation `index`: forward is turned from towards
+/// Axes of the body (columns left, up, forward): forward is turned by `rotation_rad` from towards
 /// the sensor about the axis against gravity.
 Eigen::Matrix3f body_axes(const Eigen::Vector3f& head_m, const Eigen::Vector3f& down,
                           double rotation_rad);

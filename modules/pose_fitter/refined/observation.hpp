@@ -14,7 +14,7 @@ namespace limbcast::pose_fitter::refined {
 /// eight.
 struct PointColumns {
   std::vector<float> x, y, z;  ///< [m]
-  std::vector<float> weight;   ///< area that the point stands for, in units of 18 cm^2
+  std::vector<float> weight;   ///< area that the point stands for / 9 cm^2, times a point's weight
   std::vector<float> sigma_m;  ///< of the distance along the ray
 
   std::size_t size() const { return weight.size(); }

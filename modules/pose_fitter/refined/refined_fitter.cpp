@@ -2,6 +2,7 @@
 
 #include "modules/pose_fitter/refined/assessment.hpp"
 #include "modules/pose_fitter/refined/fitted_body.hpp"
+#include "modules/pose_fitter/refined/links_and_angles.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {
@@ -17,6 +18,9 @@ void rotate(const Eigen::Matrix3f& rotation, BodyPose& pose) {
 
 }  // namespace
 
+RefinedFitter::RefinedFitter(const RefinedParams& params)
+    : params_(params), model_(load_human_model()) {}
+
 std::optional<PersonCandidate> RefinedFitter::fit(const Segment& segment,
                                                   const Stamp& stamp) const {
   const std::optional<refined::FittedBody> fitted = refined::fit_body(segment, stamp, params_);
@@ -26,6 +30,9 @@ std::optional<PersonCandidate> RefinedFitter::fit(const Segment& segment,
   if (!candidate) return std::nullopt;
   BodyPose& pose = candidate->pose;
   rotate(observation.frame_from_image, pose);
+  refined::add_links_and_angles(model_,
+                                observation.frame_from_image * fitted->body.front().cast<float>(),
+                                stamp.gravity.down, pose);
   pose.id = segment.id;
   pose.error = static_cast<float>(fitted->cost / static_cast<double>(observation.fine.size()));
   return candidate;

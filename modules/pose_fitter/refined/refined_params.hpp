@@ -22,8 +22,8 @@ struct RefinedParams {
   int target_points = 400;
   /// Fewest points that can be a person.
   int min_points = 40;
-  /// Weight of a point against the priors, for an area of two squares of 3 cm: neighbours in depth
-  /// images share their errors, those of a scanner do less. Tuned.
+  /// Weight of a point against the priors, for each square of 3 cm that it stands for: neighbours
+  /// in depth images share their errors, those of a scanner do less. Tuned.
   double point_weight = 0.5, scan_point_weight = 0.65;
   /// Points farther than this from the head's start are not the person's [m]: arm span of a tall
   /// man.
