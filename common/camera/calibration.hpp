@@ -1,12 +1,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "common/camera/pinhole_camera.hpp"
 
 namespace limbcast {
+
+/// Larger than any camera that fits a robot; guards against nonsense in files and messages [px].
+inline constexpr int kMaxImageSide = 8192;
+/// Rounding to 4 digits, as some tools write, keeps a rotation within this of orthonormal.
+inline constexpr double kRotationTolerance = 1e-3;
+
+/// How far a matrix is from a rotation: largest coefficient of R R^T - 1; infinite for a mirror.
+inline double deviation_from_rotation(const Eigen::Matrix3d& R) {
+  if (R.determinant() < 0.0) return std::numeric_limits<double>::infinity();
+  return (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
 
 /// One real lens: pinhole and OpenCV's distortion coefficients (k1 k2 p1 p2 k3 ..., 0, 4, 5, 8, 12
 /// or 14 of them; none = no distortion).

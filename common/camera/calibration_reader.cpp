@@ -1,6 +1,7 @@
 #include "common/camera/calibration_reader.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -10,7 +11,9 @@
 
 #include "common/camera/opencv_conversion.hpp"
 #include "common/camera/yaml_reader.hpp"
+#include "common/formatted.hpp"
 #include "common/input_error.hpp"
+#include "common/units.hpp"
 
 namespace limbcast {
 namespace {
@@ -20,9 +23,17 @@ namespace fs = std::filesystem;
 /// Above this a baseline is taken for one in millimetres or board squares [m]. No stereo head for
 /// people has one.
 constexpr double kLargestBaseline_m = 5.0;
-/// Rounding to 4 digits, as some tools write, keeps a rotation within this of orthonormal.
-constexpr double kRotationTolerance = 1e-3;
-constexpr int kLargestImage_px = 16384;
+/// Cameras of a pair look the same way, or hardly see the same; more is a mistaken sign or axis.
+constexpr double kLargestTurn_deg = 60.0;
+/// Lenses of a pair are alike; more is a wrong unit or another camera's calibration.
+constexpr double kLargestFocalRatio = 2.0;
+/// T and P2 tell the same baseline but for rounding; more are two units or two calibrations.
+constexpr double kBaselineTolerance = 0.05;
+/// cv::stereoRectify may move the principal point out of the image, but not by more than so many
+/// image sizes where the cameras look the same way.
+constexpr double kRectifiedSlack = 1.0;
+/// Above this a height is taken for one in millimetres or a mistyped one [m].
+constexpr double kLargestSensorHeight_m = 100.0;
 
 std::string text_of(double value) {
   std::array<char, 32> text{};
@@ -32,9 +43,9 @@ std::string text_of(double value) {
 
 int read_size(const YamlReader& yaml, const std::string& key) {
   const int size_px = yaml.integer(key);
-  if (size_px <= 0 || size_px > kLargestImage_px) {
+  if (size_px <= 0 || size_px > kMaxImageSide) {
     yaml.fail(key, "is " + std::to_string(size_px),
-              "must be 1 to " + std::to_string(kLargestImage_px) + " px");
+              "must be 1 to " + std::to_string(kMaxImageSide) + " px");
   }
   return size_px;
 }
@@ -77,8 +88,8 @@ LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
 
 Eigen::Matrix3d read_rotation(const YamlReader& yaml, const std::string& key) {
   Eigen::Matrix3d R = yaml.matrix(key, 3, 3);
-  const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (deviation > kRotationTolerance || R.determinant() < 0.0) {
+  const double deviation = deviation_from_rotation(R);
+  if (!(deviation <= kRotationTolerance)) {
     yaml.fail(key, "is not a rotation (off by " + text_of(deviation) + ")", "calibrate again");
   }
   return R;
@@ -96,7 +107,10 @@ Mounting read_mounting(const YamlReader& yaml) {
   }
   if (yaml.has("sensor_height_m")) {
     const double height_m = yaml.number("sensor_height_m");
-    if (height_m <= 0.0) yaml.fail("sensor_height_m", "is " + text_of(height_m), "must be > 0");
+    if (height_m <= 0.0 || height_m > kLargestSensorHeight_m) {
+      yaml.fail("sensor_height_m", "is " + text_of(height_m),
+                "must be > 0 and <= " + text_of(kLargestSensorHeight_m) + " metres");
+    }
     mounting.sensor_height_m = height_m;
   }
   return mounting;
@@ -106,6 +120,9 @@ void check_baseline(const YamlReader& yaml, const std::string& key, const Eigen:
   const double baseline = -T.x();
   if (std::abs(T.y()) > std::abs(T.x())) {
     yaml.fail(key, "puts one camera above the other", "mount them side by side");
+  }
+  if (std::abs(T.z()) > std::abs(T.x())) {
+    yaml.fail(key, "puts one camera in front of the other", "mount them side by side");
   }
   if (baseline <= 0.0) {
     yaml.fail(key, "gives a baseline of " + text_of(baseline) + " m, must be > 0",
@@ -117,27 +134,73 @@ void check_baseline(const YamlReader& yaml, const std::string& key, const Eigen:
   }
 }
 
-std::optional<Rectification> read_rectification(const YamlReader& yaml) {
+void check_rectified(const YamlReader& yaml, const std::string& key,
+                     const Eigen::Matrix<double, 3, 4>& P, const PinholeCamera& camera) {
+  if (P(0, 0) <= 0.0) yaml.fail(key, "has no focal length > 0", "calibrate again");
+  const auto is_near = [](double place, int size) {
+    return place >= -kRectifiedSlack * size && place < (1.0 + kRectifiedSlack) * size;
+  };
+  if (is_near(P(0, 2), camera.width) && is_near(P(1, 2), camera.height)) return;
+  yaml.fail(key,
+            "has its principal point (" + text_of(P(0, 2)) + ", " + text_of(P(1, 2)) +
+                ") far outside the image of " + size_text(camera.width, camera.height),
+            "calibrate again, or give the calibration of this image size");
+}
+
+/// The cameras of a pair have like lenses and look the same way. The keys are those of the right
+/// camera's matrix and turn.
+void check_alike(const YamlReader& yaml, const std::string& matrix_key,
+                 const std::string& rotation_key, const StereoCalibration& calibration) {
+  const double ratio = calibration.right.camera.fx / calibration.left.camera.fx;
+  if (std::max(ratio, 1.0 / ratio) > kLargestFocalRatio) {
+    yaml.fail(matrix_key,
+              "has a focal length of " + text_of(calibration.right.camera.fx) +
+                  " px, the left camera " + text_of(calibration.left.camera.fx),
+              "give both cameras like lenses, or calibrate again");
+  }
+  const double turn_deg = kDegreesPerRadian<double> * Eigen::AngleAxisd(calibration.R).angle();
+  if (turn_deg > kLargestTurn_deg) {
+    yaml.fail(rotation_key, "turns the cameras by " + text_of(turn_deg) + " degrees",
+              "must be at most " + text_of(kLargestTurn_deg) +
+                  "; mount them to look the same way, and calibrate again");
+  }
+}
+
+/// `T` and the rectified cameras tell the same baseline.
+void check_same_baseline(const YamlReader& yaml, const Eigen::Vector3d& T,
+                         const Eigen::Matrix<double, 3, 4>& P2) {
+  const double rectified_m = -P2(0, 3) / P2(0, 0);
+  if (std::abs(T.norm() - rectified_m) <= kBaselineTolerance * T.norm()) return;
+  yaml.fail("P2",
+            "has a baseline of " + text_of(rectified_m) + " m, 'T' of " + text_of(T.norm()) + " m",
+            "give both of one calibration, in metres, or leave R1 R2 P1 P2 out");
+}
+
+std::optional<Rectification> read_rectification(const YamlReader& yaml,
+                                                const StereoCalibration& calibration) {
   if (!yaml.has("R1") && !yaml.has("R2") && !yaml.has("P1") && !yaml.has("P2")) return std::nullopt;
   Rectification rectification;
   rectification.R1 = read_rotation(yaml, "R1");
   rectification.R2 = read_rotation(yaml, "R2");
   rectification.P1 = yaml.matrix("P1", 3, 4);
   rectification.P2 = yaml.matrix("P2", 3, 4);
-  if (rectification.P1(0, 0) <= 0.0) yaml.fail("P1", "has no focal length > 0", "calibrate again");
-  if (rectification.P2(0, 0) <= 0.0) yaml.fail("P2", "has no focal length > 0", "calibrate again");
+  check_rectified(yaml, "P1", rectification.P1, calibration.left.camera);
+  check_rectified(yaml, "P2", rectification.P2, calibration.right.camera);
   check_baseline(yaml, "P2", {rectification.P2(0, 3) / rectification.P2(0, 0), 0.0, 0.0});
+  check_same_baseline(yaml, calibration.T, rectification.P2);
   return rectification;
 }
 
 StereoCalibration read_opencv_stereo(const YamlReader& yaml) {
   StereoCalibration calibration;
+  const std::string right_key = yaml.first_of({"K2", "M2"});
   calibration.left = read_lens(yaml, yaml.first_of({"K1", "M1"}), "D1");
-  calibration.right = read_lens(yaml, yaml.first_of({"K2", "M2"}), "D2");
+  calibration.right = read_lens(yaml, right_key, "D2");
   calibration.R = read_rotation(yaml, "R");
   calibration.T = yaml.matrix("T", 3, 1);
   check_baseline(yaml, "T", calibration.T);
-  calibration.rectification = read_rectification(yaml);
+  check_alike(yaml, right_key, "R", calibration);
+  calibration.rectification = read_rectification(yaml, calibration);
   calibration.mounting = read_mounting(yaml);
   return calibration;
 }
@@ -180,11 +243,8 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
   rectification.R2 = read_rotation(right, "rectification_matrix");
   rectification.P1 = left.matrix("projection_matrix", 3, 4);
   rectification.P2 = right.matrix("projection_matrix", 3, 4);
-  for (const auto& [yaml, P] :
-       {std::pair(&left, rectification.P1), std::pair(&right, rectification.P2)}) {
-    if (P(0, 0) <= 0.0)
-      yaml->fail("projection_matrix", "has no focal length > 0", "calibrate again");
-  }
+  check_rectified(left, "projection_matrix", rectification.P1, calibration.left.camera);
+  check_rectified(right, "projection_matrix", rectification.P2, calibration.right.camera);
   if (rectification.P2(0, 3) == 0.0) {
     right.fail("projection_matrix", "has no baseline (P[3] is 0)",
                "calibrate the two as a stereo pair");
@@ -194,6 +254,7 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
   // p_rect_right = p_rect_left + t, with p_rect_left = R1 p_left and p_rect_right = R2 p_right.
   calibration.R = rectification.R2.transpose() * rectification.R1;
   calibration.T = rectification.R2.transpose() * t_rectified;
+  check_alike(right, "camera_matrix", "rectification_matrix", calibration);
   calibration.rectification = rectification;
   calibration.mounting = read_mounting(left);
   return calibration;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -100,6 +101,10 @@ EncodedImage describe(const cv::Mat& pixels, ImageFormat format) {
 }  // namespace
 
 EncodedImage read_encoded_image(const std::string& path) {
+  // Opens like a file; the stream throws when it is read.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError(path + ": is a folder; give a picture");
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError(path + ": cannot be read; check that it exists and may be read");
@@ -115,6 +120,13 @@ EncodedImage identify_image(std::vector<std::uint8_t> bytes, const std::string& 
     return identify_png(std::move(bytes), where);
   }
   fail(where, bytes.empty() ? "is empty" : "is neither JPEG nor PNG");
+}
+
+void check_8_bit(const EncodedImage& image, const std::string& where) {
+  constexpr int kBits = 8;
+  if (image.bits == kBits) return;
+  throw InputError(where + ": is " + std::to_string(image.bits) +
+                   " bit; 8 bit expected, record or convert it so");
 }
 
 EncodedImage encode_jpeg(const cv::Mat& image, int quality) {

@@ -26,6 +26,9 @@ EncodedImage read_encoded_image(const std::string& path);
 /// Same for bytes in memory; `where` names them in errors.
 EncodedImage identify_image(std::vector<std::uint8_t> bytes, const std::string& where);
 
+/// Throws InputError where a picture is not of 8 bit; `where` names it.
+void check_8_bit(const EncodedImage& image, const std::string& where);
+
 /// JPEG of an 8-bit grey or BGR image; `quality` 1 to 100.
 EncodedImage encode_jpeg(const cv::Mat& image, int quality);
 /// PNG of an 8- or 16-bit image, without loss.

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/config/byte_order_mark.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast {
@@ -20,13 +21,18 @@ namespace fs = std::filesystem;
 const std::string kTimestampsFile = "timestamps.csv";
 constexpr std::size_t kColumnsWithoutGravity = 2;
 constexpr std::size_t kColumnsWithGravity = 5;
+constexpr const char* kBlanks = " \t\r";
+
+bool is_blank(const std::string& line) {
+  return line.find_first_not_of(kBlanks) == std::string::npos;
+}
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream stream(line);
   for (std::string field; std::getline(stream, field, ',');) {
-    const auto begin = field.find_first_not_of(" \t\r");
-    const auto end = field.find_last_not_of(" \t\r");
+    const auto begin = field.find_first_not_of(kBlanks);
+    const auto end = field.find_last_not_of(kBlanks);
     fields.push_back(begin == std::string::npos ? "" : field.substr(begin, end - begin + 1));
   }
   if (!line.empty() && line.back() == ',') fields.emplace_back();
@@ -59,6 +65,8 @@ class TimestampsReader {
  public:
   explicit TimestampsReader(const std::string& path) : path_(path), file_(path) {
     if (!file_) throw InputError(path + ": cannot be read; check that it may be read");
+    // Opens like a file, and reads as an empty one.
+    if (fs::is_directory(path)) throw InputError(path + ": is a folder; remove or rename it");
   }
 
   std::vector<FrameTime> read() {
@@ -66,9 +74,7 @@ class TimestampsReader {
     std::vector<FrameTime> times;
     for (std::string line; std::getline(file_, line);) {
       ++line_number_;
-      const std::vector<std::string> fields = split(line);
-      if (fields.empty()) continue;
-      times.push_back(read_line(fields));
+      if (!is_blank(line)) times.push_back(read_line(split(line)));
     }
     std::stable_sort(times.begin(), times.end(),
                      [](const FrameTime& a, const FrameTime& b) { return a.utime < b.utime; });
@@ -82,7 +88,11 @@ class TimestampsReader {
 
   void read_header() {
     std::string line;
-    std::getline(file_, line);
+    while (std::getline(file_, line)) {
+      line = config::without_byte_order_mark(line);
+      if (!is_blank(line)) break;
+      ++line_number_;
+    }
     const std::vector<std::string> header = split(line);
     const std::vector<std::string> full = {"name", "utime", "down_x", "down_y", "down_z"};
     columns_ = header.size();
@@ -134,11 +144,17 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// A file or a link to one: a folder or a pipe may be called like a frame.
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 /// Frames of a folder by name, without times.
 std::map<std::string, RecordedFrame> find_files(const fs::path& folder, const FilePair& pair) {
   std::map<std::string, RecordedFrame> frames;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!is_picture(entry.path())) continue;
+    if (!is_picture(entry.path()) || !is_file(entry.path())) continue;
     const std::string stem = entry.path().stem().string();
     for (const bool is_first : {true, false}) {
       const std::string end = "_" + (is_first ? pair.first : pair.second);
@@ -154,7 +170,7 @@ std::map<std::string, RecordedFrame> find_files(const fs::path& folder, const Fi
   }
   for (auto& [name, frame] : frames) {
     const fs::path truth = folder / (name + "_gt.json");
-    if (fs::exists(truth)) frame.truth_path = truth.string();
+    if (is_file(truth)) frame.truth_path = truth.string();
   }
   return frames;
 }
@@ -235,6 +251,7 @@ Recording find_recording_of_files(const std::string& folder,
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) continue;
+    if (!is_file(entry.path())) continue;
     const std::string name = entry.path().stem().string();
     RecordedFrame& frame = files[name];
     if (!frame.first_path.empty()) {
@@ -243,7 +260,7 @@ Recording find_recording_of_files(const std::string& folder,
     }
     frame.first_path = entry.path().string();
     const fs::path truth = fs::path(folder) / (name + "_gt.json");
-    if (fs::exists(truth)) frame.truth_path = truth.string();
+    if (is_file(truth)) frame.truth_path = truth.string();
   }
   if (files.empty()) {
     std::string wanted;

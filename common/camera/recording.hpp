@@ -44,10 +44,10 @@ struct RecordingParams {
   bool first_is_optional = false;
 };
 
-/// Finds the frames NAME_first.EXT + NAME_second.EXT (jpg, jpeg or png) in `folder`, ordered by
-/// timestamps.csv where there is one, else by name. Throws InputError where the folder is missing
-/// or has no frame, where a file has no partner, or where timestamps.csv names a frame that is not
-/// there.
+/// Finds the frames NAME_first.EXT + NAME_second.EXT (files: jpg, jpeg or png) in `folder`, ordered
+/// by timestamps.csv where there is one, else by name. Throws InputError where the folder is
+/// missing or has no frame, where a file has no partner, or where timestamps.csv names a frame that
+/// is not there.
 Recording find_recording(const std::string& folder, const FilePair& pair,
                          const RecordingParams& params);
 

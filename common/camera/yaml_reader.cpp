@@ -1,20 +1,26 @@
 #include "common/camera/yaml_reader.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "common/config/byte_order_mark.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast {
 namespace {
 
 std::string read_text(const std::string& path) {
+  // Opens like a file; the stream throws when it is read.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError(path + ": is a folder; give a calibration file");
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError(path + ": cannot be read; give the path of a calibration file");
   if (text.empty()) throw InputError(path + ": is empty; calibrate again or copy the file again");
-  return text;
+  return config::without_byte_order_mark(text);
 }
 
 /// ROS writes plain YAML; OpenCV's reader wants its own first line.

@@ -23,9 +23,10 @@ enum class SegmentFilter : std::int8_t {
   kTooFewPoints = 1,   ///< figure: points
   kTooManyPoints = 2,  ///< figure: points
   kSeedNotHead = 3,    ///< figure: seed over the centroid, below the limit; or beside it, above [m]
-  kTooSparse = 4,  ///< figure: points per square metre of visible surface, relative to the sensor's
+  kTooSparse = 4,      ///< figure: share of the cluster's outline that is filled
   kSamePerson = 5,     ///< figure: share of the cluster that a better seed holds too
-  kNotHeadShaped = 6,  ///< figure: score of the head classifier
+  kNotHeadShaped = 6,  ///< figure, 0 to 1: probability of a head, or of a person or a body where
+                       ///< that was too low; or the share of the cluster that is a body's
 };
 
 /// What a pixel of a range image shows.

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <boost/program_options.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
 
+#include "common/config/byte_order_mark.hpp"
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
 
@@ -59,6 +62,12 @@ std::string number_text(T value) {
   return out.str();
 }
 
+/// NaN stands for an option that is left out: its help says what happens then.
+template <class T>
+std::string default_text(T value) {
+  return std::isnan(static_cast<double>(value)) ? "" : number_text(value);
+}
+
 template <class T>
 std::string range_text(const Range<T>& range) {
   const bool has_min = range.min != std::numeric_limits<T>::lowest();
@@ -82,7 +91,7 @@ Section::Section(std::string name) : name_(std::move(name)) {}
 template <class T>
 void Section::add_number(const std::string& key, T& target, const std::string& unit,
                          const std::string& help, Range<T> range) {
-  Entry entry{key, unit, help, number_text(target), range_text(range), false, {}};
+  Entry entry{key, unit, help, default_text(target), range_text(range), false, {}};
   entry.assign = [&target, range](const std::string& text) {
     const T value = parsed_number<T>(text);
     if (!(value >= range.min && value <= range.max)) throw std::invalid_argument(text);
@@ -109,6 +118,24 @@ void Section::add(const std::string& key, int& target, const std::string& unit,
 void Section::add(const std::string& key, std::string& target, const std::string& help) {
   entries_.push_back({key, "", help, target, "text", false,
                       [&target](const std::string& text) { target = text; }});
+}
+
+void Section::add_name(const std::string& key, std::string& target, const std::string& help) {
+  entries_.push_back(
+      {key, "", help, target, "a name, not empty", false, [&target](const std::string& text) {
+         if (text.empty()) throw std::invalid_argument(text);
+         target = text;
+       }});
+}
+
+void Section::add_channel(const std::string& key, std::string& target, const std::string& help) {
+  entries_.push_back({key, "", help, target,
+                      "a name of 1 to " + std::to_string(kLongestChannel) + " characters", false,
+                      [&target](const std::string& text) {
+                        if (text.empty() || text.size() > kLongestChannel)
+                          throw std::invalid_argument(text);
+                        target = text;
+                      }});
 }
 
 void Section::add(const std::string& key, bool& target, const std::string& help) {
@@ -257,9 +284,12 @@ void Parser::read_config_file(const std::string& path, const std::vector<std::st
     throw UsageError(path + ": is a folder; give a file to --config");
   std::ifstream in(path);
   if (!in) throw UsageError(path + ": cannot be read; give an existing file to --config");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::istringstream settings(without_byte_order_mark(text));
   std::optional<po::parsed_options> parsed;
   try {
-    parsed = po::parse_config_file(in, po::options_description(), /*allow_unregistered=*/true);
+    parsed =
+        po::parse_config_file(settings, po::options_description(), /*allow_unregistered=*/true);
   } catch (const po::error& error) {
     throw UsageError(path + ": " + error.what());
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <iosfwd>
 #include <limits>
@@ -25,6 +26,9 @@ struct Range {
   T max = std::numeric_limits<T>::max();
 };
 
+/// Characters that LCM takes for a channel's name at most.
+inline constexpr std::size_t kLongestChannel = 63;
+
 /// The options of one module: a section of the configuration file and the same keys on the command
 /// line.
 ///
@@ -43,6 +47,10 @@ class Section {
   void add(const std::string& key, int& target, const std::string& unit, const std::string& help,
            Range<int> range = {});
   void add(const std::string& key, std::string& target, const std::string& help);
+  /// A text that must not be empty.
+  void add_name(const std::string& key, std::string& target, const std::string& help);
+  /// The name of an LCM channel.
+  void add_channel(const std::string& key, std::string& target, const std::string& help);
   /// true/false; on the command line the bare key means true.
   void add(const std::string& key, bool& target, const std::string& help);
   void add_choice(const std::string& key, std::string& target,

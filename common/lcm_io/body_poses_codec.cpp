@@ -49,8 +49,8 @@ JointEstimate from_message(const joint_t& message, int joint_index) {
   joint.valid = true;
   joint.predicted = message.predicted != 0;
   joint.position_m = read_vector(message.position_m);
-  require(std::isfinite(message.confidence) && std::isfinite(message.sigma_m),
-          "body poses: confidence or sigma is not finite");
+  require(is_share(message.confidence) && is_size(message.sigma_m),
+          "body poses: confidence or sigma is out of range");
   joint.confidence = message.confidence;
   joint.sigma_m = message.sigma_m;
   return joint;
@@ -75,8 +75,8 @@ Pointing from_message(const pointing_t& message) {
   pointing.direction = read_direction(message.direction);
   pointing.forearm = read_direction(message.forearm);
   pointing.head_hand = read_direction(message.head_hand);
-  require(std::isfinite(message.sigma_rad) && std::isfinite(message.confidence),
-          "body poses: uncertainty of a direction is not finite");
+  require(is_size(message.sigma_rad) && is_share(message.confidence),
+          "body poses: uncertainty of a direction is out of range");
   pointing.sigma_rad = message.sigma_rad;
   pointing.confidence = message.confidence;
   return pointing;
@@ -106,8 +106,18 @@ BodyPose from_message(const body_pose_t& message) {
   std::copy_n(message.link_lengths_m, kJointCount, pose.link_lengths_m.begin());
   std::copy_n(message.angles_rad, kDegreesOfFreedom, pose.angles_rad.begin());
   std::copy_n(message.error_terms, kErrorTermCount, pose.error_terms.begin());
-  require(std::isfinite(message.confidence) && std::isfinite(message.error),
-          "body poses: error is not finite");
+  require(std::all_of(pose.link_lengths_m.begin(), pose.link_lengths_m.end(), is_size),
+          "body poses: a link's length is out of range");
+  require(std::none_of(pose.angles_rad.begin(), pose.angles_rad.end(),
+                       [](float angle_rad) { return std::isinf(angle_rad); }),
+          "body poses: an angle is infinite");
+  require(
+      std::isfinite(message.error) && std::all_of(pose.error_terms.begin(), pose.error_terms.end(),
+                                                  [](float term) { return std::isfinite(term); }),
+      "body poses: error is not finite");
+  require(
+      is_share(message.confidence) && is_size(message.scale) && std::isfinite(message.rotation_deg),
+      "body poses: confidence, scale or rotation of a person is out of range");
   pose.confidence = message.confidence;
   pose.error = message.error;
   pose.typical_pose = message.typical_pose;

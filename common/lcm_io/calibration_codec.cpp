@@ -1,12 +1,10 @@
 #include "common/lcm_io/calibration_codec.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "common/lcm_io/image_codec.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/plausible.hpp"
 
@@ -14,7 +12,7 @@ namespace limbcast::lcm_io {
 namespace {
 
 constexpr std::array<int, 6> kDistortionCounts = {0, 4, 5, 8, 12, 14};
-constexpr double kRotationTolerance = 1e-3;
+constexpr double kLengthTolerance = 1e-3;  // of a unit vector
 
 template <class Matrix>
 void write_rows(const Matrix& matrix, double* out) {
@@ -33,9 +31,7 @@ Matrix read_rows(const double* in) {
 
 Eigen::Matrix3d read_rotation(const double* in) {
   const auto matrix = read_rows<Eigen::Matrix3d>(in);
-  require((matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm() < kRotationTolerance &&
-              matrix.determinant() > 0.0,
-          "calibration: a rotation is none");
+  require(deviation_from_rotation(matrix) <= kRotationTolerance, "calibration: a rotation is none");
   return matrix;
 }
 
@@ -84,7 +80,7 @@ Mounting from_message(const mounting_t& message) {
   Mounting mounting;
   if (message.has_down != 0) {
     mounting.down = read_rows<Eigen::Vector3d>(message.down);
-    require(std::abs(mounting.down->norm() - 1.0) < kRotationTolerance,
+    require(std::abs(mounting.down->norm() - 1.0) < kLengthTolerance,
             "mounting: 'down' is no unit vector");
   }
   require(!std::isinf(message.sensor_height_m), "mounting: 'sensor_height_m' is infinite");

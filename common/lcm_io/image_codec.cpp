@@ -1,5 +1,7 @@
 #include "common/lcm_io/image_codec.hpp"
 
+#include "common/camera/calibration.hpp"
+
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 

@@ -8,9 +8,6 @@
 
 namespace limbcast::lcm_io {
 
-/// Larger than any camera that fits a robot; guards against nonsense in a message [px].
-inline constexpr int kMaxImageSide = 8192;
-
 /// 8-bit grey or BGR image as JPEG of that quality (1 to 100); an empty image gives a 0 x 0
 /// message.
 image_t to_jpeg_message(const cv::Mat& image, int quality);

@@ -24,6 +24,8 @@ constexpr std::chrono::milliseconds kWait{50};
 
 volatile std::sig_atomic_t g_stop_requested = 0;
 
+static_assert(config::kLongestChannel == LCM_MAX_CHANNEL_NAME_LENGTH);
+
 void on_signal(int /*signal*/) { g_stop_requested = 1; }
 
 std::string host_name() {
@@ -72,6 +74,10 @@ void install_signal_handlers() {
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  // nohup has it ignored, so that the program outlives its terminal.
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 bool stop_requested() { return g_stop_requested != 0; }
@@ -110,6 +116,18 @@ void Module::spin(std::chrono::milliseconds timeout) {
   if (now - last_status_ < kStatusPeriod) return;
   send_status(std::chrono::duration<double>(now - last_status_).count());
   last_status_ = now;
+}
+
+std::string Module::channel_fault(const std::string& channel) {
+  if (!channel.empty() && channel.size() <= config::kLongestChannel) return "";
+  return "channel '" + channel + "' has " + std::to_string(channel.size()) +
+         " characters, LCM takes 1 to " + std::to_string(config::kLongestChannel) +
+         "; choose another name";
+}
+
+void Module::check_channel(const std::string& channel) {
+  const std::string fault = channel_fault(channel);
+  if (!fault.empty()) throw config::UsageError(fault);
 }
 
 void Module::guarded(const std::string& channel, const std::function<void()>& body) {

@@ -20,13 +20,14 @@ inline constexpr const char* kStatusChannel = "MODULE_STATUS";
 /// Microseconds since the Unix epoch by this host's clock.
 std::int64_t utime_now();
 
-/// Ends the program cleanly on SIGINT and SIGTERM: they set what stop_requested() tells.
+/// Ends the program cleanly on SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP
+/// (a closed terminal): they set what stop_requested() tells.
 void install_signal_handlers();
 bool stop_requested();
 /// Ends Module::run as a signal does.
 void request_stop();
 
-/// A process of the chain: bus, log, status once a second, a clean end on SIGINT and SIGTERM.
+/// A process of the chain: bus, log, status once a second, a clean end on signals.
 ///
 ///     Module module("segmenter", parser.common());
 ///     module.subscribe<point_cloud_t>(options.input, [&](const point_cloud_t& message) { ... });
@@ -42,6 +43,7 @@ class Module {
   /// logged and put in the status, and the module goes on.
   template <class Message>
   void subscribe_frames(const std::string& channel, std::function<void(const Message&)> handler) {
+    check_channel(channel);
     const auto guarded_handler = [this, channel,
                                   handler = std::move(handler)](const Message& message) {
       if (!counter_.received(message.stamp.sensor, message.stamp.sequence)) return;
@@ -52,6 +54,7 @@ class Module {
   /// What must not be skipped, such as a calibration.
   template <class Message>
   void subscribe_all(const std::string& channel, std::function<void(const Message&)> handler) {
+    check_channel(channel);
     bus_.subscribe<Message>(channel, Keep::kAll,
                             [this, channel, handler = std::move(handler)](const Message& message) {
                               guarded(channel, [&] { handler(message); });
@@ -59,16 +62,19 @@ class Module {
   }
 
   /// The result for a frame: counted, with its age, and numbered, so that whoever hears it can tell
-  /// what was lost on the way from what this module or one before it left out.
+  /// what was lost on the way from what this module or one before it left out. Returns the number.
   template <class Message>
-  void publish_frame(const std::string& channel, Message message) {
+  std::int64_t publish_frame(const std::string& channel, Message message) {
     message.stamp.sequence = next_sequence_[channel].get(message.stamp.sensor)++;
     publish(channel, message);
     counter_.published(message.stamp.utime, utime_now());
     pace_.published(message.stamp.sensor, message.stamp.utime, std::chrono::steady_clock::now());
+    return message.stamp.sequence;
   }
   template <class Message>
   void publish(const std::string& channel, const Message& message) {
+    const std::string fault = channel_fault(channel);
+    if (!fault.empty()) return report_problem("messages cannot be sent: " + fault);
     const std::string reason = bus_.publish(channel, message);
     if (!reason.empty())
       report_problem("messages cannot be sent: " + reason + "; check link and multicast route");
@@ -91,7 +97,7 @@ class Module {
   /// module may add steps, or take some back.
   void give_way(int num_stages_after);
 
-  /// Handles messages until SIGINT or SIGTERM.
+  /// Handles messages until a signal ends it.
   void run();
   /// For sources: sends the status when it is due and handles what has come; returns at once.
   void spin_once() { spin(std::chrono::milliseconds(0)); }
@@ -104,6 +110,10 @@ class Module {
   void end_problem(const std::string& text);
 
  private:
+  /// Why LCM takes no message for a channel of this name; empty: it does.
+  static std::string channel_fault(const std::string& channel);
+  /// Throws config::UsageError where it takes none.
+  static void check_channel(const std::string& channel);
   void guarded(const std::string& channel, const std::function<void()>& body);
   void spin(std::chrono::milliseconds timeout);
   void on_malformed(const std::string& channel, const std::string& reason);

@@ -16,6 +16,11 @@ inline bool is_plausible(const Eigen::Vector3f& place_m) {
   return place_m.allFinite() && place_m.cwiseAbs().maxCoeff() <= kFarthest_m;
 }
 
+inline bool is_share(float value) { return value >= 0.0F && value <= 1.0F; }
+
+/// A length, a standard deviation, a scale.
+inline bool is_size(float value) { return value >= 0.0F && std::isfinite(value); }
+
 /// Focal lengths and principal point; not the size.
 inline bool is_plausible(const PinholeCamera& camera) {
   const auto is_focal = [](double focal_px) {

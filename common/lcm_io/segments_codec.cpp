@@ -151,8 +151,6 @@ image_pose_t to_message(const ImagePose& pose) {
   return message;
 }
 
-bool is_share(float value) { return value >= 0.0F && value <= 1.0F; }
-
 ImagePose from_message(const image_pose_t& message) {
   require(is_share(message.person_score),
           "segments: score of a person of an image is out of range");
@@ -201,6 +199,9 @@ Segment from_message(const segment_t& message) {
   require(message.seed_kind >= segment_t::SEED_SKIN && message.seed_kind <= segment_t::SEED_BODY,
           "segments: unknown 'seed_kind'");
   segment.seed_kind = static_cast<SeedKind>(message.seed_kind);
+  require(std::isfinite(message.seed_score) && std::isfinite(message.filter_figure) &&
+              std::isfinite(message.filter_limit),
+          "segments: a seed's score or a filter's figure is not finite");
   segment.seed_score = message.seed_score;
   require(std::isfinite(message.facing_log_odds) && std::isfinite(message.looks_right_log_odds),
           "segments: odds of a face are not finite");

@@ -33,6 +33,8 @@ FramePair FolderSource::read(const RecordedFrame& recorded) const {
   FramePair frame;
   if (!recorded.first_path.empty()) frame.first = read_encoded_image(recorded.first_path);
   frame.second = read_encoded_image(recorded.second_path);
+  check_8_bit(frame.first, recorded.first_path);
+  if (!format_.second_is_depth) check_8_bit(frame.second, recorded.second_path);
   check_pair(format_, frame.first, frame.second, folder_ + "/" + recorded.time.name);
   frame.first =
       coded_for_sending(std::move(frame.first), format_.jpeg_quality, recorded.first_path);

@@ -18,6 +18,9 @@ class FolderSource : public PairSource {
   std::optional<FramePair> next() override;
   bool ended() const override { return index_ >= recording_.frames.size(); }
   bool live() const override { return false; }
+  std::optional<std::int64_t> num_frames() const override {
+    return static_cast<std::int64_t>(recording_.frames.size());
+  }
   std::string description() const override;
 
  private:

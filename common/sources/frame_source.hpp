@@ -29,6 +29,8 @@ class FrameSource {
   virtual bool ended() const = 0;
   /// Live: frames come when the sensor gives them. Else: as fast as they are asked for.
   virtual bool live() const = 0;
+  /// Of a recording, once through; nothing where that is not known before its end.
+  virtual std::optional<std::int64_t> num_frames() const { return std::nullopt; }
   /// Nothing where there is nothing to count.
   virtual std::optional<SourceStatistics> statistics() const { return std::nullopt; }
   /// What is wrong now with a live source, or with a recording that was read to its end; empty:

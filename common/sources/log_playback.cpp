@@ -22,16 +22,11 @@
 namespace limbcast {
 namespace {
 
-/// Times and sequence numbers of one round through the log.
+/// Times of one round through the log.
 struct Round {
-  std::int64_t first_utime = 0, last_utime = 0, last_sequence = 0;
+  std::int64_t first_utime = 0, last_utime = 0;
   std::int64_t frames = 0;
   std::set<std::string> channels;
-};
-
-/// How a round's times and numbers are moved, so that they go on rising when the log starts again.
-struct Offset {
-  std::int64_t utime = 0, sequence = 0;
 };
 
 template <class Message>
@@ -41,7 +36,7 @@ class LogPlayer {
             lcm_io::Module& module)
       : options_(options), channels_(channels), module_(module), pacer_(options.source.rate_hz) {}
 
-  Round play(const Offset& offset) {
+  Round play(std::int64_t offset_us) {
     lcm_io::LogReader reader(options_.source.source);
     Round round;
     while (!lcm_io::stop_requested()) {
@@ -49,7 +44,7 @@ class LogPlayer {
       if (!event) break;
       round.channels.insert(event->channel);
       try {
-        send(*event, offset, round);
+        send(*event, offset_us, round);
       } catch (const lcm_io::MessageError& error) {
         module_.report_problem(options_.source.source + ": " + event->channel +
                                ": message left out: " + error.what());
@@ -63,15 +58,15 @@ class LogPlayer {
   }
 
  private:
-  void send(const lcm_io::LogEvent& event, const Offset& offset, Round& round) {
+  void send(const lcm_io::LogEvent& event, std::int64_t offset_us, Round& round) {
     if (event.channel == channels_.frames) {
-      send_frame(lcm_io::decode<Message>(event.data), offset, round);
+      send_frame(lcm_io::decode<Message>(event.data), offset_us, round);
     } else if (event.channel == channels_.truth) {
       auto truth = lcm_io::decode<body_poses_t>(event.data);
       // Truth follows its frame; without one before it, it belongs to another camera.
       if (round.frames == 0 || truth.stamp.utime != recorded_utime_) return;
       truth.stamp.utime = sent_utime_;
-      truth.stamp.sequence += offset.sequence;
+      truth.stamp.sequence = sent_sequence_;
       module_.publish(channels_.truth, truth);
     } else if (event.channel == channels_.calibration) {
       const auto calibration = lcm_io::decode<stereo_calibration_t>(event.data);
@@ -86,17 +81,15 @@ class LogPlayer {
     calibrations_sent_at_ = Pacer::Clock::now();
   }
 
-  void send_frame(Message frame, const Offset& offset, Round& round) {
+  void send_frame(Message frame, std::int64_t offset_us, Round& round) {
     recorded_utime_ = frame.stamp.utime;
     if (round.frames++ == 0) round.first_utime = frame.stamp.utime;
     round.last_utime = frame.stamp.utime;
-    round.last_sequence = frame.stamp.sequence;
-    wait_until(pacer_.due(frame.stamp.utime + offset.utime, Pacer::Clock::now()), module_);
+    wait_until(pacer_.due(frame.stamp.utime + offset_us, Pacer::Clock::now()), module_);
     if (Pacer::Clock::now() - calibrations_sent_at_ >= kCalibrationPeriod) send_calibrations();
-    sent_utime_ = options_.restamp ? lcm_io::utime_now() : frame.stamp.utime + offset.utime;
+    sent_utime_ = options_.restamp ? lcm_io::utime_now() : frame.stamp.utime + offset_us;
     frame.stamp.utime = sent_utime_;
-    frame.stamp.sequence += offset.sequence;
-    module_.publish_frame(channels_.frames, frame);
+    sent_sequence_ = module_.publish_frame(channels_.frames, frame);
   }
 
   const SourceProcessOptions& options_;
@@ -105,7 +98,7 @@ class LogPlayer {
   Pacer pacer_;
   std::map<std::string, stereo_calibration_t> calibrations_;  ///< the last of each sensor
   Pacer::Clock::time_point calibrations_sent_at_;
-  std::int64_t recorded_utime_ = 0, sent_utime_ = 0;
+  std::int64_t recorded_utime_ = 0, sent_utime_ = 0, sent_sequence_ = 0;
 };
 
 std::string list_of(const std::set<std::string>& channels) {
@@ -130,19 +123,19 @@ void play_log(const std::string& module_name, const SourceProcessOptions& option
   if (!options.log.empty()) throw config::UsageError("'source' is a log already; leave out 'log'");
   lcm_io::Module module(module_name, common);
   LogPlayer<Message> player(options, channels, module);
-  Offset offset;
+  // Moves a round's times, so that they go on rising when the log starts again.
+  std::int64_t offset_us = 0;
   std::int64_t frames = 0;
   do {
-    const Round round = player.play(offset);
+    const Round round = player.play(offset_us);
     if (round.frames == 0 && !lcm_io::stop_requested())
       throw InputError(options.source.source + ": holds no frame on " + channels.frames + " but " +
                        list_of(round.channels));
     frames += round.frames;
     const double pause_s =
         1.0 / (options.source.rate_hz > 0.0 ? options.source.rate_hz : kDefaultRate_hz);
-    offset.utime += round.last_utime - round.first_utime +
-                    std::llround(kMicrosecondsPerSecond<double> * pause_s);
-    offset.sequence += round.last_sequence + 1;
+    offset_us += round.last_utime - round.first_utime +
+                 std::llround(kMicrosecondsPerSecond<double> * pause_s);
   } while (options.source.loop && !lcm_io::stop_requested());
   config::log(config::LogLevel::kInfo, std::to_string(frames) + " frames sent");
 }

@@ -17,9 +17,9 @@ struct PlaybackChannels {
 };
 
 /// Sends a camera's messages of a log again: frames at the rate that the options say, calibration
-/// and truth with them, byte by byte unless times change (restamp, loop). Calibrations are repeated
-/// as a camera does, for a log may hold one alone. Message: the type of the
-/// frames. Throws InputError where the log holds no such frame.
+/// and truth with them, with their times unless these change (restamp, loop) and numbered anew.
+/// Calibrations are repeated as a camera does, for a log may hold one alone. Message: the type of
+/// the frames. Throws InputError where the log holds no such frame.
 template <class Message>
 void play_log(const std::string& module_name, const SourceProcessOptions& options,
               const config::CommonOptions& common, const PlaybackChannels& channels);

@@ -34,6 +34,9 @@ void check_pair(const PairFormat& format, const EncodedImage& first, const Encod
                      " one " + size_text(second.width, second.height) +
                      "; both must be of equal size");
   }
+  check_8_bit(first, where + ": the " + format.names.first + " image");
+  if (!format.second_is_depth)
+    check_8_bit(second, where + ": the " + format.names.second + " image");
   if (format.second_is_depth && (second.bits != 16 || second.channels != 1)) {
     throw InputError(where + ": the depth image has " + std::to_string(second.channels) +
                      " channels of " + std::to_string(second.bits) +

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -75,6 +76,12 @@ void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std
   }
   if (!source.problem().empty()) outlet.report_problem(source.problem());
   log.close();
+  // A live source has no end: to be told to is how its recording is complete.
+  if (source.ended() || source.live()) return;
+  const std::optional<std::int64_t> num_frames = source.num_frames();
+  throw std::runtime_error("interrupted: " + std::to_string(sender.num_sent()) +
+                           (num_frames ? " of " + std::to_string(*num_frames) : "") + " frames; " +
+                           path + " holds what was sent so far");
 }
 
 /// Sends the frames of the source until it ends or the program is told to: a recording at its rate,
@@ -88,6 +95,7 @@ void run_frames(const std::string& module_name, const SourceProcessOptions& opti
     config::log(config::LogLevel::kInfo, description);
     publish(source, sender, module, options.source.rate_hz);
   } else {
+    check_log_file(options);
     config::configure_log(module_name, common.log_level);
     lcm_io::install_signal_handlers();
     config::log(config::LogLevel::kInfo, description);

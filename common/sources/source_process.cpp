@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <thread>
 
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_loop.hpp"
 #include "common/units.hpp"
@@ -13,8 +15,27 @@
 namespace limbcast {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// How long the process may take to see a signal or that the status is due.
 constexpr std::chrono::milliseconds kTick{20};
+
+/// Files that are read. A folder may hold logs besides, which are not.
+std::vector<std::string> files_read(const SourceProcessOptions& options) {
+  std::vector<std::string> files;
+  for (const std::string& input :
+       {options.source.source, options.source.second_source, options.calibration}) {
+    std::error_code ignored;
+    if (!fs::is_directory(input, ignored)) {
+      files.push_back(input);
+      continue;
+    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(input)) {
+      if (entry.path().extension() != ".log") files.push_back(entry.path().string());
+    }
+  }
+  return files;
+}
 
 /// For the log at start: the source, and what its devices can do.
 std::string describe(const PairSource& source, const SourceOptions& options) {
@@ -74,7 +95,7 @@ void require_end(const SourceProcessOptions& options) {
 }
 
 void declare_playback(config::Section& section, SourceProcessOptions& options) {
-  section.add("sensor", options.sensor, "name of the sensor in all messages");
+  section.add_name("sensor", options.sensor, "name of the sensor in all messages");
   section.add("log", options.log, "write this LCM log instead of publishing");
   section.add("rate", options.source.rate_hz, "frames/s",
               "send at this rate; 0: as recorded, or 10 where no times are recorded",
@@ -87,23 +108,26 @@ void declare_playback(config::Section& section, SourceProcessOptions& options) {
   section.add("down", options.down, "gravity in the sensor's frame as X,Y,Z; overrides all others");
   section.add("sensor-height-m", options.sensor_height_m, "m",
               "height of the sensor over the ground, 0 = not told", {0.0, 100.0});
-  section.add("truth-channel", options.truth_channel, "channel of the truth beside a recording");
+  section.add_channel("truth-channel", options.truth_channel,
+                      "channel of the truth beside a recording");
 }
 
 void declare_cameras(config::Section& section, SourceOptions& options) {
   section.add("camera-width", options.camera.width, "px",
-              "ask the camera for this size, 0 = the calibration's, else its own", {0, 16384});
+              "ask the camera for this size, 0 = the calibration's, else its own",
+              {0, kMaxImageSide});
   section.add("camera-height", options.camera.height, "px",
-              "ask the camera for this size, 0 = the calibration's, else its own", {0, 16384});
+              "ask the camera for this size, 0 = the calibration's, else its own",
+              {0, kMaxImageSide});
   section.add("camera-rate", options.camera.rate_hz, "frames/s",
               "ask the camera for this rate, 0 = 30 or the nearest that it has", {0.0, 1000.0});
   section.add(
       "camera-format", options.camera.format,
       "ask the camera for this format, e.g. MJPG; empty: the fastest, at best without loss");
   section.add("exposure", options.camera.exposure, "driver's unit, UVC: 100 us",
-              "fixed exposure; nan = as the camera has it");
+              "fixed exposure; left out: as the camera has it");
   section.add("gain", options.camera.gain, "driver's unit",
-              "fixed gain; nan = as the camera has it");
+              "fixed gain; left out: as the camera has it");
   section.add("pair-tolerance-ms", options.pair_tolerance_ms, "ms",
               "largest difference in time of the two images of two cameras", {0.0, 1000.0});
 }
@@ -128,6 +152,10 @@ void declare(config::Section& section, SourceProcessOptions& options,
               "without a frame for this long a camera counts as stalled", {0.1, 3600.0});
   section.add("reopen", source.reopen,
               "open a camera that fails or ends again each second; false: end the program");
+}
+
+void check_log_file(const SourceProcessOptions& options) {
+  config::check_output_file("--log", options.log, files_read(options));
 }
 
 Mounting mounting_of(const SourceProcessOptions& options) {

@@ -46,6 +46,9 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
 /// Throws config::UsageError for a log that would never end.
 void require_end(const SourceProcessOptions& options);
 
+/// Throws config::UsageError where the log cannot be written, or would be over a file that is read.
+void check_log_file(const SourceProcessOptions& options);
+
 /// Mounting as the options tell it. Throws config::UsageError for a `down` that is no unit vector.
 Mounting mounting_of(const SourceProcessOptions& options);
 

@@ -20,7 +20,7 @@ struct Options {
 void declare(config::Section& section, Options& options) {
   options.process.sensor = "depth";
   limbcast::declare(section, options.process, "source-depth");
-  section.add("images-channel", options.images_channel, "channel of the frames");
+  section.add_channel("images-channel", options.images_channel, "channel of the frames");
 }
 
 /// `registration`: nothing where the depth is registered to the colour image already.

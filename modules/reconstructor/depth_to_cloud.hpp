@@ -11,8 +11,9 @@ struct DepthToCloudParams {
   /// Points outside are dropped [m].
   double near_limit_m = 0.3;
   double far_limit_m = 12.0;
-  /// Standard deviation of a depth: constant_m + quadratic_per_m * z^2. RealSense D435, see
-  /// README.md.
+  /// Standard deviation of a depth: constant_m + quadratic_per_m * z^2. RealSense D435:
+  /// planes through windows of rgbd_pointing leave 14 mm at 2 m and 18 mm at 3 m where the windows
+  /// are 41 px wide (median), 4 and 7 mm where they are 9 px wide.
   double noise_constant_m = 0.002;
   double noise_quadratic_per_m = 0.0020;
   /// A pixel is flying, between two surfaces, where the surface is steeper than this on both sides,

@@ -36,7 +36,8 @@ void run(int argc, const char* const* argv) {
         module.publish_frame(options.point_cloud_channel, Stage::process(*reconstructor, message));
         drift_watch.look_at(reconstructor, message);
         const std::string drift_before = std::exchange(drift, drift_watch.warning());
-        module.set_note(drift);
+        const std::string shared = stage.warning();
+        module.set_note(shared.empty() || drift.empty() ? shared + drift : shared + "; " + drift);
         if (drift_before.empty() && !drift.empty()) config::log(config::LogLevel::kWarning, drift);
       });
   module.subscribe_frames<depth_images_t>(

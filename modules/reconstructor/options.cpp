@@ -1,10 +1,15 @@
 #include "modules/reconstructor/options.hpp"
 
+#include "common/formatted.hpp"
+
 namespace limbcast::reconstructor {
 
 void declare(config::Section& section, ReconstructorOptions& options) {
-  section.add("near-limit-m", options.near_limit_m, "m",
-              "nearest depth; of a stereo pair at most 255 disparities are searched", {0.1, 100.0});
+  section.add(
+      "near-limit-m", options.near_limit_m, "m",
+      "nearest depth, 0 = 0.4, of depth cameras 0.3; of a stereo pair at most 255 disparities "
+      "are searched",
+      {0.0, 100.0});
   section.add("far-limit-m", options.far_limit_m, "m", "drop points beyond", {0.2, 1000.0});
   section.add("image-scale", options.image_scale, "",
               "size of the rectified images against the camera's: smaller is faster, less exact",
@@ -18,6 +23,14 @@ void declare(config::Section& section, ReconstructorOptions& options) {
               "region of interest: height, 0 = to the lower border", {0, 100000});
   section.add("ground-plane", options.ground_plane,
               "find gravity and the sensor's height from the ground where nobody told them");
+}
+
+void check(const ReconstructorOptions& options) {
+  for (const double near_limit_m : {options.stereo_near_limit_m(), options.depth_near_limit_m()}) {
+    if (near_limit_m < options.far_limit_m) continue;
+    throw config::UsageError(formatted("near-limit-m (%g) must be less than far-limit-m (%g)",
+                                       near_limit_m, options.far_limit_m));
+  }
 }
 
 }  // namespace limbcast::reconstructor

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/cloud/ground_plane.hpp"
+#include "common/formatted.hpp"
 #include "modules/reconstructor/depth_to_cloud.hpp"
 #include "modules/reconstructor/matcher.hpp"
 #include "modules/reconstructor/near_look.hpp"
@@ -19,14 +19,6 @@ namespace {
 /// What is nearer is looked for first, in small images: people stand farther away, mostly.
 constexpr double kUsualNearest_m = 1.0;
 
-void check_limits(const ReconstructorOptions& options) {
-  if (options.near_limit_m < options.far_limit_m) return;
-  std::ostringstream text;
-  text << "near-limit-m (" << options.near_limit_m << ") must be less than far-limit-m ("
-       << options.far_limit_m << ")";
-  throw std::invalid_argument(text.str());
-}
-
 cv::Rect region_of_interest(const ReconstructorOptions& options, const PinholeCamera& camera) {
   const cv::Rect image(0, 0, camera.width, camera.height);
   const cv::Rect wanted(
@@ -34,7 +26,13 @@ cv::Rect region_of_interest(const ReconstructorOptions& options, const PinholeCa
       options.roi_width > 0 ? options.roi_width : std::max(0, camera.width - options.roi_x),
       options.roi_height > 0 ? options.roi_height : std::max(0, camera.height - options.roi_y));
   const cv::Rect roi = wanted & image;
-  if (roi.empty()) throw std::invalid_argument("region of interest lies outside the image");
+  // Less than the matcher's windows see nothing.
+  constexpr int kLeastSide_px = 32;
+  if (std::min(roi.width, roi.height) < kLeastSide_px)
+    throw std::invalid_argument(formatted(
+        "region of interest holds %d x %d px of the image of %d x %d, at least %d x %d are needed; "
+        "see roi-x, roi-y, roi-width and roi-height",
+        roi.width, roi.height, camera.width, camera.height, kLeastSide_px, kLeastSide_px));
   return roi;
 }
 
@@ -69,17 +67,18 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
       mounting_(calibration.mounting),
       rectifier_(calibration, options.image_scale),
       roi_(region_of_interest(options, rectifier_.camera())) {
-  check_limits(options);
+  const double near_limit_m = options.stereo_near_limit_m();
   const auto disparities_to = [&](double distance_m) {
-    return std::min({static_cast<int>(std::ceil(focal_baseline_px_m() / distance_m)) + 1,
-                     rectifier_.camera().width, kMaxDisparities});
+    const int most = std::min(rectifier_.camera().width, kMaxDisparities);
+    const double needed = std::ceil(focal_baseline_px_m() / distance_m) + 1.0;
+    return needed < most ? static_cast<int>(needed) : most;
   };
-  most_disparities_ = disparities_to(options.near_limit_m);
-  num_disparities_ = disparities_to(std::max(options.near_limit_m, kUsualNearest_m));
+  most_disparities_ = disparities_to(near_limit_m);
+  num_disparities_ = disparities_to(std::max(near_limit_m, kUsualNearest_m));
 }
 
 double StereoReconstructor::nearest_m() const {
-  return std::max(options_.near_limit_m, focal_baseline_px_m() / most_disparities_);
+  return std::max(options_.stereo_near_limit_m(), focal_baseline_px_m() / most_disparities_);
 }
 
 bool StereoReconstructor::is_told_gravity(const Stamp& stamp) const {
@@ -107,7 +106,7 @@ Cloud StereoReconstructor::reconstruct(const StereoImages& images) const {
   const RectifiedPair pair =
       with_rows_aligned(rectifier_.rectify(images.left, images.right), rectifier_.camera());
   TriangulationParams params;
-  params.near_limit_m = options_.near_limit_m;
+  params.near_limit_m = options_.stereo_near_limit_m();
   params.far_limit_m = options_.far_limit_m;
   Cloud cloud =
       triangulate(match(pair), pair.left, rectifier_.camera(), rectifier_.baseline_m(), params);
@@ -117,13 +116,11 @@ Cloud StereoReconstructor::reconstruct(const StereoImages& images) const {
 
 DepthReconstructor::DepthReconstructor(DepthCalibration calibration,
                                        const ReconstructorOptions& options)
-    : calibration_(std::move(calibration)), options_(options) {
-  check_limits(options);
-}
+    : calibration_(std::move(calibration)), options_(options) {}
 
 Cloud DepthReconstructor::reconstruct(const DepthImages& images) const {
   DepthToCloudParams params;
-  params.near_limit_m = std::min(params.near_limit_m, options_.near_limit_m);
+  params.near_limit_m = options_.depth_near_limit_m();
   params.far_limit_m = options_.far_limit_m;
   Cloud cloud = depth_to_cloud(images.depth, images.color, calibration_, params);
   stamp_cloud(cloud, images.stamp, calibration_.mounting, options_.ground_plane, "/color");

@@ -16,27 +16,45 @@ namespace {
 /// Says so where less is searched than the near limit asks for.
 void tell_nearest(const StereoReconstructor& reconstructor, const std::string& sensor,
                   const ReconstructorOptions& options) {
-  if (reconstructor.nearest_m() <= options.near_limit_m) return;
+  if (reconstructor.nearest_m() <= options.stereo_near_limit_m()) return;
   std::ostringstream text;
   text << "stereo camera '" << sensor << "': nothing nearer than " << std::fixed
        << std::setprecision(2) << reconstructor.nearest_m() << " m is seen, not near-limit-m ("
-       << options.near_limit_m << "), as at most " << reconstructor.most_disparities()
+       << options.stereo_near_limit_m() << "), as at most " << reconstructor.most_disparities()
        << " disparities are searched; a lower image-scale sees nearer";
   config::log(config::LogLevel::kInfo, text.str());
 }
 
+std::string shared_name_warning(const std::string& sensor) {
+  return "two cameras are called '" + sensor +
+         "': calibrations alternate, and pairs are matched with the other one's; give each its own "
+         "--sensor";
+}
+
 }  // namespace
+
+Stage::Stage(const StageOptions& options) : options_(options) { check(options.algorithm); }
+
+std::string Stage::warning() const {
+  std::string text;
+  cameras_.for_each([&text](const std::string& sensor, const Camera& camera) {
+    if (!camera.is_shared) return;
+    text.append(text.empty() ? "" : "; ").append(shared_name_warning(sensor));
+  });
+  return text;
+}
 
 void declare(config::Section& section, StageOptions& options) {
   declare(section, options.algorithm);
-  section.add("stereo-images-channel", options.stereo_images_channel, "input: stereo pairs");
-  section.add("stereo-calibration-channel", options.stereo_calibration_channel,
-              "input: their calibration");
-  section.add("depth-images-channel", options.depth_images_channel,
-              "input: frames of a depth camera");
-  section.add("point-cloud-channel", options.point_cloud_channel, "output: point clouds");
-  section.add("segments-channel", options.segments_channel,
-              "input: what is made of the clouds; no more are made than are taken");
+  section.add_channel("stereo-images-channel", options.stereo_images_channel,
+                      "input: stereo pairs");
+  section.add_channel("stereo-calibration-channel", options.stereo_calibration_channel,
+                      "input: their calibration");
+  section.add_channel("depth-images-channel", options.depth_images_channel,
+                      "input: frames of a depth camera");
+  section.add_channel("point-cloud-channel", options.point_cloud_channel, "output: point clouds");
+  section.add_channel("segments-channel", options.segments_channel,
+                      "input: what is made of the clouds; no more are made than are taken");
 }
 
 void Stage::on_calibration(stereo_calibration_t message) {
@@ -50,8 +68,14 @@ void Stage::on_calibration(stereo_calibration_t message) {
   }
   auto reconstructor = std::make_shared<const StereoReconstructor>(lcm_io::from_message(message),
                                                                    options_.algorithm);
-  tell_nearest(*reconstructor, message.sensor, options_.algorithm);
-  cameras_.get(message.sensor) = {std::move(bytes), std::move(reconstructor)};
+  Camera& camera = cameras_.get(message.sensor);
+  const bool was_shared = camera.is_shared;
+  camera.is_shared = was_shared || bytes == camera.calibration_before;
+  if (camera.is_shared && !was_shared)
+    config::log(config::LogLevel::kWarning, shared_name_warning(message.sensor));
+  if (!camera.is_shared) tell_nearest(*reconstructor, message.sensor, options_.algorithm);
+  camera.calibration_before = std::exchange(camera.calibration, std::move(bytes));
+  camera.reconstructor = std::move(reconstructor);
 }
 
 std::shared_ptr<const StereoReconstructor> Stage::find(const std::string& sensor) const {

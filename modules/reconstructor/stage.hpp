@@ -32,11 +32,14 @@ void declare(config::Section& section, StageOptions& options);
 /// limbcast-replay.
 class Stage {
  public:
-  explicit Stage(const StageOptions& options) : options_(options) {}
+  /// Throws UsageError where options do not fit together.
+  explicit Stage(const StageOptions& options);
 
   /// Makes the sensor's reconstructor anew where the calibration is another one than before. Throws
   /// MessageError or std::invalid_argument where it cannot be used.
   void on_calibration(stereo_calibration_t message);
+  /// Names that two cameras seem to share, for the status; empty where none is.
+  std::string warning() const;
   /// The reconstructor of that sensor; null as long as its calibration has not come. Several
   /// threads may use it, and it stays as it is when a new calibration comes.
   std::shared_ptr<const StereoReconstructor> find(const std::string& sensor) const;
@@ -47,8 +50,10 @@ class Stage {
 
  private:
   struct Camera {
-    std::vector<std::uint8_t> calibration;
+    std::vector<std::uint8_t> calibration, calibration_before;
     std::shared_ptr<const StereoReconstructor> reconstructor;
+    /// Its calibration came back after another one.
+    bool is_shared = false;
   };
   StageOptions options_;
   BoundedMap<Camera> cameras_;  ///< by sensor

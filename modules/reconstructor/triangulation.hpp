@@ -12,7 +12,7 @@ struct TriangulationParams {
   double near_limit_m = 1.0;
   double far_limit_m = 12.0;
   /// Standard deviation of the disparity [px], which gives the cloud's depth noise.
-  /// Measured on people in data with truth, see README.md.
+  /// On people in data with truth the median error is 0.06 to 0.08 px (README.md).
   double sigma_disparity_px = 0.10;
 };
 

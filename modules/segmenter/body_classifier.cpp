@@ -35,25 +35,24 @@ std::vector<std::uint32_t> asked_points(const Lattice& lattice,
   return asked;
 }
 
+/// The first asked row from there on.
+int asked_from(int row) { return (row + kStride_px - 1) / kStride_px * kStride_px; }
+
 /// Mean over the asked points of the cluster that lie near; 0 where there is none.
 float mean_near(const Lattice& lattice, const std::vector<std::int16_t>& labels,
                 const std::vector<float>& asked_odds, int u, int v) {
-  // To the first asked row and column of the window.
-  const auto first = [](int from) {
-    return (std::max(0, from) + kStride_px - 1) / kStride_px * kStride_px;
-  };
   const std::size_t i = lattice.index(u, v);
   float sum = 0.0F;
   int count = 0;
-  for (int y = first(v - kMeanReach_px); y <= std::min(lattice.height - 1, v + kMeanReach_px);
-       y += kStride_px) {
-    for (int x = first(u - kMeanReach_px); x <= std::min(lattice.width - 1, u + kMeanReach_px);
-         x += kStride_px) {
-      const std::size_t n = lattice.index(x, y);
+  const int last_row = std::min(lattice.height - 1, v + kMeanReach_px);
+  for (int y = asked_from(std::max(0, v - kMeanReach_px)); y <= last_row; y += kStride_px) {
+    for (int du = -kMeanReach_px; du <= kMeanReach_px; ++du) {
+      const auto n = lattice.find(u + du, y);  // beyond a panorama's seam too
+      if (!n || static_cast<int>(*n) % lattice.width % kStride_px != 0) continue;
       const bool near =
-          (lattice.level_m[n] - lattice.level_m[i]).squaredNorm() <= kMeanReach_m * kMeanReach_m;
-      if (labels[n] != labels[i] || !near) continue;
-      sum += asked_odds[n];
+          (lattice.level_m[*n] - lattice.level_m[i]).squaredNorm() <= kMeanReach_m * kMeanReach_m;
+      if (labels[*n] != labels[i] || !near) continue;
+      sum += asked_odds[*n];
       ++count;
     }
   }

@@ -66,11 +66,10 @@ bool is_open(const Lattice& lattice, const std::vector<std::int16_t>& labels, st
   const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
   const float step_m = 0.5F * growing.longest_step_m(lattice.depth_m[i]);
   for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    if (u + du < 0 || v + dv < 0 || u + du >= lattice.width || v + dv >= lattice.height) continue;
-    const std::size_t n = lattice.index(u + du, v + dv);
-    if (labels[n] != kNobody || lattice.depth_m[n] <= 0.0F) continue;
-    if (lattice.frame.ground_known && lattice.level_m[n].z() < growing.ground_cut_m) continue;
-    if ((lattice.level_m[n] - lattice.level_m[i]).norm() < step_m) return true;
+    const auto n = lattice.find(u + du, v + dv);
+    if (!n || labels[*n] != kNobody) continue;
+    if (lattice.frame.ground_known && lattice.level_m[*n].z() < growing.ground_cut_m) continue;
+    if ((lattice.level_m[*n] - lattice.level_m[i]).norm() < step_m) return true;
   }
   return false;
 }

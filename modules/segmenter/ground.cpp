@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3f> sample(const Cloud& cloud) {
   std::vector<Eigen::Vector3f> points;
   points.reserve(kSamples + 1);
   const std::size_t stride = std::max<std::size_t>(1, cloud.points_m.size() / kSamples);
-  // A stride that shares no factor with the lattice's width would walk along columns; odd ones
+  // A stride that shares a factor with the lattice's width would see some columns only; odd ones
   // spread.
   for (std::size_t i = 0; i < cloud.points_m.size(); i += stride | 1U) {
     const Eigen::Vector3f& point = cloud.points_m[i];

@@ -14,7 +14,7 @@ struct HeadCandidate {
   int u = 0, v = 0;           ///< lattice
   Eigen::Vector3f surface_m;  ///< point of the lattice there, level frame
   Eigen::Vector3f center_m;   ///< of the head behind it, level frame
-  float score = 0.0F;         ///< template's, 0 to 2.48
+  float score = 0.0F;         ///< template's, 0 to 2.48; of a part of skin its area [m^2]
   SeedKind kind = SeedKind::kHeadShape;
   float odds = 0.0F;  ///< log odds that this is a head, of the classifier
 };

@@ -2,6 +2,9 @@
 
 #include <map>
 #include <string>
+#include <utility>
+
+#include "common/formatted.hpp"
 
 namespace limbcast::segmenter {
 
@@ -19,6 +22,16 @@ void declare_filters(config::Section& section, const std::string& prefix, const 
               "how far a head stands beside its cluster's centroid" + note, {0.0F, 2.0F});
   section.add(prefix + "min-density", filters.min_density, "",
               "share of a cluster's outline that its points must fill" + note, {0.0F, 1.0F});
+}
+
+void check(const SegmenterOptions& options) {
+  const Params& params = options.params;
+  for (const auto& [prefix, filters] :
+       {std::pair("", &params.filters), std::pair("paper-", &params.paper_filters)}) {
+    if (filters->min_area_m2 < filters->max_area_m2) continue;
+    throw config::UsageError(formatted("%smin-area-m2 (%g) must be less than %smax-area-m2 (%g)",
+                                       prefix, filters->min_area_m2, prefix, filters->max_area_m2));
+  }
 }
 
 }  // namespace
@@ -65,6 +78,7 @@ void declare(config::Section& section, SegmenterOptions& options) {
 }
 
 Params to_params(const SegmenterOptions& options) {
+  check(options);
   static const std::map<std::string, SeedSource> seeds = {{"auto", SeedSource::kAuto},
                                                           {"skin", SeedSource::kSkin},
                                                           {"shape", SeedSource::kShape},

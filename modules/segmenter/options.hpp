@@ -20,7 +20,7 @@ struct SegmenterOptions {
 /// Binds the keys of section [segmenter].
 void declare(config::Section& section, SegmenterOptions& options);
 
-/// The parameters that the options ask for.
+/// The parameters that the options ask for. Throws UsageError where these do not fit together.
 Params to_params(const SegmenterOptions& options);
 
 }  // namespace limbcast::segmenter

@@ -77,8 +77,8 @@ struct ClassifierParams {
   /// others, at the image's edge, on sofas.
   float sure_head_odds = 0.5F;
   /// Between this and a sure head's log odds the colour image is asked too, of so many candidates
-  /// at most: each takes 10 ms. From -2 on, and four of them, one of 80 simulated people up to 5.2
-  /// m away less is found.
+  /// at most: each takes a look of the networks. From -2 on, and four of them, one of 80 simulated
+  /// people up to 5.2 m away less is found.
   float min_asked_odds = -3.0F;
   int max_asked = 6;
   /// Lowest log odds of a skin-coloured part that the template does not take for a head.
@@ -127,7 +127,7 @@ struct HiddenHeadParams {
   float min_part_height_m = 0.3F, min_part_odds = -2.5F;
   /// Higher surfaces show a shoulder or the head itself [m]: the head is guessed at their top.
   float min_shoulder_m = 1.25F;
-  /// The largest surfaces only: each takes 10 ms.
+  /// The largest surfaces only: each takes a look of the networks.
   int max_asked = 4;
   /// Log odds that it is a body's: `base` + `depth_odds` times those of its points + `score_odds`
   /// times those of the network's score, up to `max_score_odds`, + `joint_odds` times the joints in

@@ -170,6 +170,11 @@ std::vector<HeadCandidate> Segmenter::find_whole_people(const Scene& scene,
     // The top may be hidden; the network sees where the head is all the same.
     body.head.center_m = scene.lattice.frame.to_level(*head_m);
     body.head.surface_m = head_surface(scene.lattice, body.head.center_m);
+    // Growing starts around the pixel.
+    if (const auto seen = head_at(scene.lattice, body.head.center_m)) {
+      body.head.u = seen->u;
+      body.head.v = seen->v;
+    }
     body.head.odds = params_.whole_bodies.head_odds;
     people.push_back(body.head);
   }

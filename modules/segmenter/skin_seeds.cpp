@@ -30,11 +30,11 @@ std::vector<std::size_t> take_part(const Lattice& lattice, std::size_t start, fl
     const std::size_t i = part[j];
     const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
     for (const auto& [du, dv] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      if (u + du < 0 || v + dv < 0 || u + du >= lattice.width || v + dv >= lattice.height) continue;
-      const std::size_t n = lattice.index(u + du, v + dv);
-      if (mask[n] == 0 || std::abs(lattice.depth_m[n] - lattice.depth_m[i]) > max_step_m) continue;
-      mask[n] = 0;
-      part.push_back(n);
+      const auto n = lattice.find(u + du, v + dv);
+      if (!n || mask[*n] == 0) continue;
+      if (std::abs(lattice.depth_m[*n] - lattice.depth_m[i]) > max_step_m) continue;
+      mask[*n] = 0;
+      part.push_back(*n);
     }
   }
   return part;

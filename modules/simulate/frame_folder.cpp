@@ -38,6 +38,7 @@ void write_pcd(const std::string& path, const LaserScan& scan) {
                              scan.intensities[i]};
     file.write(reinterpret_cast<const char*>(record), sizeof(record));
   }
+  file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
@@ -86,6 +87,7 @@ void FrameFolder::write(const SimulatedFrame& frame) {
   }
   std::ofstream truth(path(frame, "_gt.json"));
   truth << truth_json(frame.scenario, view, frame.pixels).dump(1) << "\n";
+  truth.close();
   const Eigen::Vector3d& down = frame.told_down;
   char line[160];
   std::snprintf(line, sizeof(line), "%s,%lld,%.5f,%.5f,%.5f\n", frame.scenario.name.c_str(),

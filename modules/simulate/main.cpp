@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,36 +15,53 @@ namespace limbcast::simulate {
 namespace {
 
 void declare(config::Section& section, Channels& channels) {
-  section.add("stereo-images-channel", channels.stereo_images, "output: pairs");
-  section.add("stereo-calibration-channel", channels.stereo_calibration,
-              "output: their calibration");
-  section.add("depth-images-channel", channels.depth_images, "output: frames of a depth camera");
-  section.add("point-cloud-channel", channels.point_cloud, "output: clouds of a laser");
-  section.add("truth-channel", channels.truth, "output: the truth");
+  section.add_channel("stereo-images-channel", channels.stereo_images, "output: pairs");
+  section.add_channel("stereo-calibration-channel", channels.stereo_calibration,
+                      "output: their calibration");
+  section.add_channel("depth-images-channel", channels.depth_images,
+                      "output: frames of a depth camera");
+  section.add_channel("point-cloud-channel", channels.point_cloud, "output: clouds of a laser");
+  section.add_channel("truth-channel", channels.truth, "output: the truth");
 }
 
-/// Calls `take` with each frame until all are made or the program is told to end.
+/// Calls `take` with each frame until all are made or the program is told to end; how many.
 template <class Take>
-void make_frames(const SimulateOptions& options, const SimulatorParams& params, const Take& take) {
-  for (int i = 0; i < options.frames && !lcm_io::stop_requested(); ++i) {
+int make_frames(const SimulateOptions& options, const SimulatorParams& params, const Take& take) {
+  int i = 0;
+  for (; i < options.frames && !lcm_io::stop_requested(); ++i) {
     take(simulate_frame(params, static_cast<std::uint64_t>(options.seed), options.first + i), i);
     if ((i + 1) % 10 == 0 || i + 1 == options.frames) {
       config::log(config::LogLevel::kInfo,
                   std::to_string(i + 1) + " of " + std::to_string(options.frames) + " frames made");
     }
   }
-  if (lcm_io::stop_requested())
-    config::log(config::LogLevel::kWarning, "interrupted; not all frames were made");
+  return i;
+}
+
+/// `written`: to where. What is not complete is no success.
+void check_complete(int num_made, const SimulateOptions& options, const std::string& written) {
+  if (num_made == options.frames) return;
+  throw std::runtime_error("interrupted: " + std::to_string(num_made) + " of " +
+                           std::to_string(options.frames) + " frames; " + written +
+                           " holds what was made so far");
 }
 
 void write_log(const SimulateOptions& options, const SimulatorParams& params,
                const Channels& channels) {
   lcm_io::LogWriter log(options.log);
   Outlet outlet(log);
-  make_frames(options, params, [&](const SimulatedFrame& frame, int i) {
+  const int num_made = make_frames(options, params, [&](const SimulatedFrame& frame, int i) {
     FrameMessages(params, frame, options.sensor_name, i).send(channels, outlet);
   });
   log.close();
+  check_complete(num_made, options, options.log);
+}
+
+void write_folder(const SimulateOptions& options, const SimulatorParams& params) {
+  FrameFolder folder(options.output, params);
+  const int num_made =
+      make_frames(options, params, [&](const SimulatedFrame& frame, int) { folder.write(frame); });
+  check_complete(num_made, options, options.output);
 }
 
 /// Frames take longer to make than a sensor takes: they are made first, then sent at the sensor's
@@ -94,8 +112,7 @@ void run(int argc, const char* const* argv) {
   if (options.report) {
     report(options, params);
   } else if (!options.output.empty()) {
-    FrameFolder folder(options.output, params);
-    make_frames(options, params, [&](const SimulatedFrame& frame, int) { folder.write(frame); });
+    write_folder(options, params);
   } else if (!options.log.empty()) {
     write_log(options, params, channels);
   } else {

@@ -42,7 +42,7 @@ void declare(config::Section& section, Options& options) {
               "modules that must be there, e.g. reconstructor,segmenter; others are shown too");
   section.add("silent-after-s", options.board.silent_after_s, "s",
               "a module that is not heard for this long is in error", {1.0, 3600.0});
-  section.add("channel", options.channel, "channel of the modules' status");
+  section.add_channel("channel", options.channel, "channel of the modules' status");
 }
 
 std::vector<std::string> split(const std::string& text) {

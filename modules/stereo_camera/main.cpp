@@ -24,8 +24,9 @@ struct Options {
 void declare(config::Section& section, Options& options) {
   options.process.sensor = "stereo";
   limbcast::declare(section, options.process, "source-right");
-  section.add("images-channel", options.images_channel, "channel of the pairs");
-  section.add("calibration-channel", options.calibration_channel, "channel of the calibration");
+  section.add_channel("images-channel", options.images_channel, "channel of the pairs");
+  section.add_channel("calibration-channel", options.calibration_channel,
+                      "channel of the calibration");
 }
 
 stereo_images_t to_message(const FramePair& frame) {

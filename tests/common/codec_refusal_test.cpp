@@ -62,8 +62,15 @@ TEST(CodecRefusals, NameWhatIsWrongWithABodyPose) {
        {[=](Poses& m) { pointing(m).direction[0] = 2.0F; }, "no unit vector"},
        {[=](Poses& m) { pointing(m).sigma_rad = kNaN; }, "uncertainty of a direction"},
        {[=](Poses& m) { pointing(m).confidence = kNaN; }, "uncertainty of a direction"},
-       {[](Poses& m) { m.persons[0].confidence = kNaN; }, "error is not finite"},
-       {[](Poses& m) { m.persons[0].error = kInfinity; }, "error is not finite"}});
+       {[](Poses& m) { m.persons[0].joints[2].confidence = 1.5F; }, "confidence or sigma"},
+       {[=](Poses& m) { pointing(m).sigma_rad = -1.0F; }, "uncertainty of a direction"},
+       {[](Poses& m) { m.persons[0].link_lengths_m[3] = kNaN; }, "a link's length"},
+       {[](Poses& m) { m.persons[0].angles_rad[3] = kInfinity; }, "an angle is infinite"},
+       {[](Poses& m) { m.persons[0].error_terms[1] = kNaN; }, "error is not finite"},
+       {[](Poses& m) { m.persons[0].error = kInfinity; }, "error is not finite"},
+       {[](Poses& m) { m.persons[0].confidence = kNaN; }, "confidence, scale or rotation"},
+       {[](Poses& m) { m.persons[0].scale = kInfinity; }, "confidence, scale or rotation"},
+       {[](Poses& m) { m.persons[0].rotation_deg = kNaN; }, "confidence, scale or rotation"}});
 }
 
 TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
@@ -91,6 +98,9 @@ TEST(CodecRefusals, NameWhatIsWrongWithASegment) {
        {[](Message& m) { m.segments[0].seed_m[1] = kNaN; }, "seed is not finite"},
        {[](Message& m) { m.segments[0].facing_log_odds = kNaN; }, "odds of a face"},
        {[](Message& m) { m.segments[0].looks_right_log_odds = kInfinity; }, "odds of a face"},
+       {[](Message& m) { m.segments[0].seed_score = kNaN; }, "a seed's score"},
+       {[](Message& m) { m.segments[0].filter_figure = kInfinity; }, "a filter's figure"},
+       {[](Message& m) { m.segments[0].filter_limit = kNaN; }, "a filter's figure"},
        {[](Message& m) { m.segments[0].seed_kind = -1; }, "'seed_kind'"},
        {[](Message& m) { m.segments[0].seed_kind = 4; }, "'seed_kind'"},
        {[](Message& m) { m.segments[0].rejected_by = -1; }, "'rejected_by'"},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 #include "tests/support/temporary_folder.hpp"
@@ -18,6 +19,8 @@ struct Settings {
   bool verbose = false;
   std::string method = "paper";
   std::string input;
+  std::string sensor = "front", channel = "IMAGES";
+  double exposure = std::numeric_limits<double>::quiet_NaN();
 };
 
 class OptionsTest : public ::testing::Test {
@@ -27,6 +30,9 @@ class OptionsTest : public ::testing::Test {
     section_.add("threads", settings_.threads, "", "threads", {1, 64});
     section_.add("verbose", settings_.verbose, "say more");
     section_.add_choice("method", settings_.method, {"paper", "refined"}, "how to fit");
+    section_.add_name("sensor", settings_.sensor, "of the messages");
+    section_.add_channel("images-channel", settings_.channel, "channel");
+    section_.add("exposure", settings_.exposure, "ms", "left out: as it is");
     parser_.add(section_);
     parser_.add_positional("IN.log", settings_.input, "the log");
   }
@@ -113,6 +119,29 @@ TEST_F(OptionsTest, NamesTheFileOfAnUnknownKeyOrSection) {
 TEST_F(OptionsTest, RefusesAFolderAsConfigurationFile) {
   EXPECT_THAT(error_of({"in.log", "--config", folder_.path().c_str()}),
               HasSubstr(folder_.path() + ": is a folder; give a file to --config"));
+}
+
+TEST_F(OptionsTest, RefusesNamesThatMessagesCannotHave) {
+  EXPECT_EQ(error_of({"in.log", "--sensor", ""}),
+            "command line: 'sensor' is '', must be a name, not empty");
+  EXPECT_EQ(error_of({"in.log", "--images-channel", ""}),
+            "command line: 'images-channel' is '', must be a name of 1 to 63 characters");
+  const std::string longest(kLongestChannel, 'A');
+  EXPECT_TRUE(parse({"in.log", "--images-channel", longest.c_str()}));
+  EXPECT_EQ(settings_.channel, longest);
+  EXPECT_THAT(error_of({"in.log", "--images-channel", (longest + "A").c_str()}),
+              HasSubstr("must be a name of 1 to 63 characters"));
+}
+
+TEST_F(OptionsTest, ReadsAFileWithAByteOrderMark) {
+  const std::string file = config_file("\xEF\xBB\xBF[pose_fitter]\r\nthreads = 4\r\n");
+  EXPECT_TRUE(parse({"in.log", "--config", file.c_str()}));
+  EXPECT_EQ(settings_.threads, 4);
+}
+
+TEST_F(OptionsTest, HelpShowsNoDefaultOfWhatIsLeftOut) {
+  EXPECT_FALSE(parse({"--help"}));
+  EXPECT_THAT(out_.str(), HasSubstr("left out: as it is [ms] (a number)\n"));
 }
 
 TEST_F(OptionsTest, HelpShowsUnitAndDefault) {

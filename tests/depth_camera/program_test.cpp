@@ -181,6 +181,10 @@ TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
               HasSubstr("the color image is 64x48, the depth one 10x10"));
   std::filesystem::remove(folder_ + "/a_depth.png");
   EXPECT_THAT(error({"--source", folder_}), HasSubstr("has no partner a_depth"));
+  test::write_bytes(folder_ + "/a_depth.png", encode_png(depth_ramp()));
+  std::filesystem::remove(folder_ + "/a_color.jpg");
+  test::write_bytes(folder_ + "/a_color.png", encode_png(depth_ramp()));
+  EXPECT_THAT(error({"--source", folder_}), HasSubstr("a_color.png: is 16 bit; 8 bit expected"));
 }
 
 TEST_F(DepthCameraProgram, WritesALogOfTheRealRecording) {

@@ -42,17 +42,19 @@ class ReconstructorProgram : public ::testing::Test {
     bus_.subscribe<module_status_t>("MODULE_STATUS", Keep::kAll,
                                     [this](const module_status_t& status) { status_ = status; });
   }
-  /// Sends pairs that were taken a second apart until the status is as wanted.
+  /// Sends the next pair, taken a second after the one before.
+  void publish_pair(const stereo_calibration_t& calibration) {
+    bus_.publish("STEREO_CALIBRATION", calibration);
+    stereo_images_t pair = pairs_[static_cast<std::size_t>(sequence_) % pairs_.size()];
+    pair.stamp.sequence = ++sequence_;
+    pair.stamp.utime = sequence_ * kSecond_us;
+    bus_.publish("STEREO_IMAGES", pair);
+  }
+  /// Sends pairs until the status is as wanted.
   template <class Wanted>
   ::testing::AssertionResult feed_until(const stereo_calibration_t& calibration, Wanted wanted) {
     while (!status_ || !wanted(*status_)) {
-      if (status_) {
-        bus_.publish("STEREO_CALIBRATION", calibration);
-        stereo_images_t pair = pairs_[static_cast<std::size_t>(sequence_) % pairs_.size()];
-        pair.stamp.sequence = ++sequence_;
-        pair.stamp.utime = sequence_ * kSecond_us;
-        bus_.publish("STEREO_IMAGES", pair);
-      }
+      if (status_) publish_pair(calibration);
       bus_.handle(kLook);
       if (!program_.running())
         return ::testing::AssertionFailure() << "ended: " << program_.output();
@@ -108,6 +110,22 @@ TEST_F(ReconstructorProgram, WarnsInItsStatusOfARightCameraThatTurnedAboutItsUpr
   EXPECT_THAT(status_->note, ContainsRegex("disparities are off by (2.[5-9]|3.[0-9]|4.[0-3]) px"));
   EXPECT_THAT(program_.output(), HasSubstr("WARNING the ground before 'stereo' leans by"));
   ASSERT_TRUE(feed_until(calibration_, [](const auto& status) { return status.note.empty(); }));
+}
+
+TEST_F(ReconstructorProgram, WarnsInItsStatusOfTwoCamerasOfOneName) {
+  StereoCalibration wider = lcm_io::from_message(calibration_);
+  wider.T *= 1.5;
+  wider.rectification.reset();
+  const stereo_calibration_t other =
+      lcm_io::to_message(wider, calibration_.utime, calibration_.sensor);
+  bool is_other = false;
+  while (!status_ || status_->note.find("two cameras are called 'stereo'") == std::string::npos) {
+    is_other = !is_other;
+    publish_pair(is_other ? other : calibration_);
+    bus_.handle(kLook);
+    ASSERT_TRUE(program_.running()) << program_.output();
+  }
+  EXPECT_THAT(program_.output(), HasSubstr("WARNING two cameras are called 'stereo'"));
 }
 
 TEST(NearLimit, IsToldWhereTheMatcherCannotSearchSoFar) {

@@ -84,10 +84,28 @@ TEST(StereoReconstructor, DropsWhatIsBeyondTheLimits) {
   EXPECT_EQ(reconstructor.num_disparities(), 31);  // ceil(60 px m / 2 m) + 1
 }
 
-TEST(StereoReconstructor, RefusesLimitsTheWrongWayRound) {
+TEST(DepthReconstructor, DropsWhatIsNearerThanTheLimit) {
+  DepthCalibration calibration;
+  calibration.color.camera = {64, 48, 60.0, 60.0, 31.5, 23.5};
+  DepthImages images;
+  images.depth = cv::Mat(48, 64, CV_16U, cv::Scalar(500));
   ReconstructorOptions options;
+  EXPECT_EQ(count_points(DepthReconstructor(calibration, options).reconstruct(images)), 64U * 48U);
+  options.near_limit_m = 0.8;
+  EXPECT_EQ(count_points(DepthReconstructor(calibration, options).reconstruct(images)), 0U);
+}
+
+TEST(ReconstructorOptions, RefuseLimitsTheWrongWayRound) {
+  ReconstructorOptions options;
+  EXPECT_NO_THROW(check(options));
   options.near_limit_m = 5.0;
   options.far_limit_m = 2.0;
+  EXPECT_THROW(check(options), config::UsageError);
+}
+
+TEST(StereoReconstructor, RefusesARegionThatIsTooSmallToMatch) {
+  ReconstructorOptions options;
+  options.roi_width = 1;
   EXPECT_THROW(StereoReconstructor(test::ideal_calibration(), options), std::invalid_argument);
 }
 

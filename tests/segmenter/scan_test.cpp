@@ -65,12 +65,15 @@ Cloud figure_at(float azimuth_rad) {
   return scan_of(points_m);
 }
 
-ClusterFigures figures_at(float azimuth_rad) {
+/// Of the figure's points up to that far to its right.
+ClusterFigures figures_at(float azimuth_rad, float right_end_m = 1.0F) {
   const Params params;
   const Lattice panorama = render_panorama(figure_at(azimuth_rad), level_frame(), params.panorama);
   std::vector<std::int16_t> labels(panorama.size(), kNobody);
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (panorama.depth_m[i] > 0.0F) labels[i] = 0;
+    const Eigen::Vector3f& point = panorama.level_m[i];
+    const float right_m = point.x() * std::cos(azimuth_rad) - point.y() * std::sin(azimuth_rad);
+    if (panorama.depth_m[i] > 0.0F && right_m < right_end_m) labels[i] = 0;
   }
   HeadCandidate head;
   head.surface_m = {3.0F * std::sin(azimuth_rad), 3.0F * std::cos(azimuth_rad), 0.0F};
@@ -87,6 +90,13 @@ TEST(ClusterFigures, AreTheSameOnAllSidesOfAScanner) {
     EXPECT_NEAR(turned.head_width_m, ahead.head_width_m, 0.04F);
     EXPECT_NEAR(turned.torso_depth_m, ahead.torso_depth_m, 0.04F);
   }
+}
+
+TEST(ClusterFigures, SeeWhatGoesOnBeyondAPanoramasFirstColumn) {
+  // Half of it is another's, and the seam of the panorama is between the two.
+  const float ahead = figures_at(0.0F, 0.0F).open_share;
+  EXPECT_GT(ahead, 0.02F);
+  EXPECT_NEAR(figures_at(kPi<float>, 0.0F).open_share, ahead, 0.01F);
 }
 
 TEST(LikelyHeads, AreRarerAmongTheManyPlacesOfAPanorama) {

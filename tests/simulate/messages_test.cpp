@@ -4,6 +4,7 @@
 
 #include "common/human_model/ground_truth_json.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/depth_images_codec.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
@@ -36,6 +37,14 @@ std::vector<lcm_io::LogEvent> logged(const FrameMessages& messages) {
   lcm_io::LogReader reader(path);
   while (auto event = reader.next()) events.push_back(*event);
   return events;
+}
+
+/// Of a message that is a frame or its truth.
+stamp_t stamp_of(const lcm_io::LogEvent& event) {
+  if (event.channel == "STEREO_IMAGES") return lcm_io::decode<stereo_images_t>(event.data).stamp;
+  if (event.channel == "DEPTH_IMAGES") return lcm_io::decode<depth_images_t>(event.data).stamp;
+  if (event.channel == "POINT_CLOUD") return lcm_io::decode<point_cloud_t>(event.data).stamp;
+  return lcm_io::decode<body_poses_t>(event.data).stamp;
 }
 
 TEST(FrameMessages, AStereoFrameIsCalibrationPairAndTruth) {
@@ -110,15 +119,26 @@ TEST(FrameMessages, TheTruthIsThatOfTheFolder) {
 }
 
 TEST(FrameMessages, RestampingChangesTimeAndNumberOfAll) {
-  const SimulatorParams params = small_params(SensorKind::kStereo);
-  FrameMessages messages(params, simulate_frame(params, 1, 0), "front", 0);
+  for (const SensorKind sensor : {SensorKind::kStereo, SensorKind::kDepth, SensorKind::kLaser}) {
+    const SimulatorParams params = small_params(sensor);
+    FrameMessages messages(params, simulate_frame(params, 1, 0), "front", 0);
 
-  messages.restamp(123456, 7);
+    messages.restamp(123456, 7);
 
-  const auto events = logged(messages);
-  EXPECT_EQ(messages.utime(), 123456);
-  EXPECT_EQ(lcm_io::decode<stereo_images_t>(events[1].data).stamp.sequence, 7);
-  EXPECT_EQ(lcm_io::decode<body_poses_t>(events[2].data).stamp.utime, 123456);
+    EXPECT_EQ(messages.utime(), 123456);
+    int stamps = 0;
+    for (const auto& event : logged(messages)) {
+      if (event.channel == "STEREO_CALIBRATION") {
+        EXPECT_EQ(lcm_io::decode<stereo_calibration_t>(event.data).utime, 123456);
+        continue;
+      }
+      const stamp_t stamp = stamp_of(event);
+      EXPECT_EQ(stamp.utime, 123456) << event.channel;
+      EXPECT_EQ(stamp.sequence, 7) << event.channel;
+      ++stamps;
+    }
+    EXPECT_EQ(stamps, 2);  // the frame and its truth
+  }
 }
 
 }  // namespace

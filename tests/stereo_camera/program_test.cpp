@@ -93,6 +93,30 @@ TEST_F(StereoCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", folder_}), HasSubstr("has no partner frame_1_right"));
 }
 
+TEST_F(StereoCameraProgram, WritesNoLogOverWhatItReads) {
+  write_pairs(folder_, 2, 100'000);
+  const std::string times = folder_ + "/timestamps.csv";
+  for (const std::string& file : {times, calibration_, folder_ + "/frame_0_left.jpg"}) {
+    const auto size = std::filesystem::file_size(file);
+    const RunResult result = write_log({"--source", folder_, "--log", file});
+    EXPECT_EQ(result.exit_code, kWrongInput);
+    EXPECT_THAT(result.output, HasSubstr(file + ": is what is read; choose another --log"));
+    EXPECT_EQ(std::filesystem::file_size(file), size);
+  }
+  const std::string beside = folder_ + "/in.log";
+  for (const char* state : {"new", "old"})
+    EXPECT_EQ(write_log({"--source", folder_, "--log", beside}).exit_code, 0) << state;
+}
+
+TEST_F(StereoCameraProgram, EndsWithCode2OnNamesThatMessagesCannotHave) {
+  write_pairs(folder_, 1, 100'000);
+  for (const char* option : {"--sensor", "--images-channel", "--truth-channel"}) {
+    const RunResult result = write_log({"--source", folder_, option, ""});
+    EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("is '', must be a name"));
+  }
+}
+
 TEST_F(PublishingStereoCamera, LoopsThroughARecordingUntilItIsToldToEnd) {
   write_pairs(folder_, 3, 100'000);
   start({"--source", folder_, "--loop", "--rate", "100"});

@@ -105,10 +105,9 @@ TEST_F(StereoCalibrationFile, GivesMountingWhereTold) {
 }
 
 TEST_F(StereoCalibrationFile, TakesBaselineAndPoseFromARosPair) {
-  // The right camera is turned by 90 degrees about its axis, so that R and T show which way R2 is
-  // used.
+  // The right camera is turned about its axis, so that R and T show which way R2 is used.
   Entries right = ros_entries("-48");
-  right["rectification_matrix"] = ros_matrix(3, 3, "0, -1, 0, 1, 0, 0, 0, 0, 1");
+  right["rectification_matrix"] = ros_matrix(3, 3, "0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1");
   folder_.write("left.yaml", yaml(ros_entries("0"), ""));
   folder_.write("right.yaml", yaml(right, ""));
 
@@ -119,7 +118,7 @@ TEST_F(StereoCalibrationFile, TakesBaselineAndPoseFromARosPair) {
   ASSERT_TRUE(calibration.rectification);
   EXPECT_EQ(calibration.rectification->P2(0, 3), -48.0);
   // t = (-48 / 400, 0, 0) in the rectified right camera; T = R2^T t = (row 0 of R2) * -0.12.
-  EXPECT_TRUE(calibration.T.isApprox(Eigen::Vector3d(0.0, 0.12, 0.0))) << calibration.T;
+  EXPECT_TRUE(calibration.T.isApprox(Eigen::Vector3d(-0.096, 0.072, 0.0))) << calibration.T;
   EXPECT_TRUE(calibration.R.isApprox(calibration.rectification->R2.transpose()));
 }
 
@@ -176,6 +175,62 @@ TEST_F(StereoCalibrationFile, RefusesABaselineInMillimetres) {
 
 TEST_F(StereoCalibrationFile, RefusesCamerasAboveOneAnother) {
   EXPECT_THAT(error_with("T", matrix(3, 1, "-0.01, 0.12, 0.")), HasSubstr("side by side"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesCamerasInFrontOfOneAnother) {
+  EXPECT_THAT(error_with("T", matrix(3, 1, "-0.001, 0., 4.9")),
+              HasSubstr("'T' puts one camera in front of the other; mount them side by side"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesCamerasThatLookAnotherWay) {
+  EXPECT_THAT(error_with("R", matrix(3, 3, "-1., 0., 0., 0., 1., 0., 0., 0., -1.")),
+              HasSubstr("'R' turns the cameras by 180 degrees; must be at most 60"));
+  EXPECT_THAT(error_with("R", matrix(3, 3, "0., -1., 0., 1., 0., 0., 0., 0., 1.")),
+              HasSubstr("'R' turns the cameras by 90 degrees; must be at most 60"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesLensesThatAreNotAlike) {
+  EXPECT_THAT(error_with("K2", matrix(3, 3, "5., 0., 320., 0., 5., 240., 0., 0., 1.")),
+              HasSubstr("'K2' has a focal length of 5 px, the left camera 500"));
+  EXPECT_THAT(error_with("K2", matrix(3, 3, "1001., 0., 320., 0., 1001., 240., 0., 0., 1.")),
+              HasSubstr("'K2' has a focal length of 1001 px, the left camera 500"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesARectificationThatDoesNotBelongToTheCameras) {
+  const auto with_projections = [](const std::string& cx, const std::string& offset) {
+    const std::string identity = matrix(3, 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.");
+    Entries entries = opencv_entries();
+    entries["R1"] = entries["R2"] = identity;
+    entries["P1"] = matrix(3, 4, "500., 0., " + cx + ", 0., 0., 500., 240., 0., 0., 0., 1., 0.");
+    entries["P2"] =
+        matrix(3, 4, "500., 0., 320., " + offset + ", 0., 500., 240., 0., 0., 0., 1., 0.");
+    return yaml(entries);
+  };
+  // 500 px * 0.12 m = 60; cv::stereoRectify may put the principal point beside the image.
+  const std::string usual = folder_.write("usual.yml", with_projections("-100.", "-60."));
+  EXPECT_TRUE(read_stereo_calibration(usual).rectification);
+  EXPECT_THAT(
+      error_of_file(with_projections("5000.", "-60.")),
+      HasSubstr("'P1' has its principal point (5000, 240) far outside the image of 640x480"));
+  EXPECT_THAT(error_of_file(with_projections("320.", "-64.")),
+              HasSubstr("'P2' has a baseline of 0.128 m, 'T' of 0.120021 m"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesAHeightOfNoRobot) {
+  EXPECT_THAT(error_with("sensor_height_m", "1e9"),
+              HasSubstr("'sensor_height_m' is 1e+09; must be > 0 and <= 100 metres"));
+}
+
+TEST_F(StereoCalibrationFile, IsReadWithAByteOrderMark) {
+  const std::string path = folder_.write("stereo.yml", "\xEF\xBB\xBF" + yaml(opencv_entries()));
+  EXPECT_EQ(baseline_m(read_stereo_calibration(path)), 0.12);
+}
+
+TEST_F(StereoCalibrationFile, RefusesAFolderInPlaceOfARosFile) {
+  std::filesystem::create_directory(folder_ / "left.yaml");
+  folder_.write("right.yaml", yaml(ros_entries("-48"), ""));
+  EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_.path()); }),
+              HasSubstr("left.yaml: is a folder; give a calibration file"));
 }
 
 TEST_F(StereoCalibrationFile, RefusesARotationThatIsNone) {

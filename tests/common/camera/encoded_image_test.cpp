@@ -93,6 +93,8 @@ TEST(EncodedImage, OtherFilesAreNamed) {
   EXPECT_THAT(error_of<InputError>([&] { read_encoded_image(empty); }), HasSubstr("is empty"));
   EXPECT_THAT(error_of<InputError>([&] { read_encoded_image(folder / "none.jpg"); }),
               HasSubstr("none.jpg: cannot be read"));
+  EXPECT_EQ(error_of<InputError>([&] { read_encoded_image(folder.path()); }),
+            folder.path() + ": is a folder; give a picture");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "common/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -95,6 +97,30 @@ TEST_F(RecordedFolder, LeavesOtherFilesAlone) {
   EXPECT_EQ(find().frames.size(), 1U);
 }
 
+TEST_F(RecordedFolder, LeavesFoldersAloneThatAreCalledLikeFrames) {
+  add_pair("a");
+  for (const char* name : {"b_left.jpg", "c.pcd", "a_gt.json"})
+    std::filesystem::create_directory(folder_ / name);
+  folder_.write("real", "");
+  for (const char* name : {"d_left.png", "d_right.png", "d.pcd"})
+    std::filesystem::create_symlink(folder_ / "real", folder_ / name);
+
+  const Recording pairs = find();
+  const Recording clouds = find_recording_of_files(folder_.path(), {".pcd"}, {});
+
+  ASSERT_EQ(pairs.frames.size(), 2U);
+  EXPECT_EQ(pairs.frames[0].truth_path, "");
+  EXPECT_EQ(pairs.frames[1].time.name, "d");
+  ASSERT_EQ(clouds.frames.size(), 1U);
+  EXPECT_EQ(clouds.frames[0].first_path, folder_ / "d.pcd");
+}
+
+TEST_F(RecordedFolder, RefusesAFolderForTimestamps) {
+  add_pair("a");
+  std::filesystem::create_directory(folder_ / "timestamps.csv");
+  EXPECT_THAT(error(), HasSubstr("timestamps.csv: is a folder"));
+}
+
 TEST_F(RecordedFolder, NamesAMissingPartner) {
   add_pair("a");
   folder_.write("b_left.png", "");
@@ -128,6 +154,18 @@ TEST_F(RecordedFolder, TimestampsWithoutANumberAreAnError) {
   EXPECT_THAT(error_of_timestamps("name,utime\na,-5\n"), HasSubstr(":2: utime is '-5'"));
   EXPECT_THAT(error_of_timestamps("name,utime,down_x,down_y,down_z\na,1,0,nan,0\n"),
               HasSubstr(":2: down_x, down_y, down_z are no unit vector"));
+}
+
+TEST_F(RecordedFolder, BlankLinesAndAByteOrderMarkInTimestampsSayNothing) {
+  add_pair("a");
+  folder_.write("timestamps.csv", "\xEF\xBB\xBF\r\nname,utime\r\n\r\na,7\r\n  \t\n\r\n\n");
+  const Recording recording = find();
+  ASSERT_EQ(recording.frames.size(), 1U);
+  EXPECT_EQ(recording.frames[0].time.utime, 7);
+}
+
+TEST_F(RecordedFolder, TimestampsCountBlankLinesInErrors) {
+  EXPECT_THAT(error_of_timestamps("\nname,utime\n\na,x\n"), HasSubstr(":4: utime is 'x'"));
 }
 
 TEST_F(RecordedFolder, TimestampsWithAForeignHeaderAreAnError) {

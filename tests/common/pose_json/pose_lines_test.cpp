@@ -147,5 +147,10 @@ TEST(PoseLines, OfAMissingFileAreAnError) {
               testing::ThrowsMessage<InputError>(HasSubstr("/no/such/file.jsonl: cannot be read")));
 }
 
+TEST(PoseLines, OfAFolderAreAnError) {
+  EXPECT_THAT([] { read_file("/"); },
+              testing::ThrowsMessage<InputError>(HasSubstr("/: cannot be read; give a file")));
+}
+
 }  // namespace
 }  // namespace limbcast::pose_json

@@ -102,6 +102,21 @@ TEST_F(FolderSourceTest, RefusesDepthOf8Bit) {
   EXPECT_THAT(error_of_next(depth_format()), HasSubstr("one of 16 bit is needed"));
 }
 
+TEST_F(FolderSourceTest, RefusesPicturesOf16Bit) {
+  for (const int type : {CV_16UC1, CV_16UC3}) {
+    const EncodedImage deep = encode_png(cv::Mat(48, 64, type, cv::Scalar::all(7000)));
+    const test::TemporaryFolder folder;
+    for (const char* name : {"a_left.png", "a_right.png", "b_color.png", "b_depth.png"})
+      write_bytes(folder / name, deep);
+    const auto error = [&](const PairFormat& format) {
+      FolderSource source(folder.path(), format, {});
+      return error_of<InputError>([&] { source.next(); });
+    };
+    EXPECT_THAT(error(stereo_format()), HasSubstr("a_left.png: is 16 bit; 8 bit expected"));
+    EXPECT_THAT(error(depth_format()), HasSubstr("b_color.png: is 16 bit; 8 bit expected"));
+  }
+}
+
 TEST_F(FolderSourceTest, CountsOnThroughALoop) {
   for (const char* name : {"a", "b", "c"}) add_pair(name);
   folder_.write("timestamps.csv", "name,utime\na,1000\nb,1400\nc,2000\n");

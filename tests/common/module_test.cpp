@@ -1,0 +1,53 @@
+#include "common/lcm_io/module.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <limbcast/module_status_t.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace limbcast::lcm_io {
+namespace {
+
+using ::testing::ExitedWithCode;
+using ::testing::HasSubstr;
+
+constexpr int kToldToEnd = 0, kGoesOn = 1;
+
+/// What a program does whose terminal is closed.
+[[noreturn]] void hang_up(sighandler_t handler_at_start) {
+  std::signal(SIGHUP, handler_at_start);
+  install_signal_handlers();
+  std::raise(SIGHUP);
+  std::exit(stop_requested() ? kToldToEnd : kGoesOn);
+}
+
+TEST(Signals, OfAClosedTerminalTellToEnd) {
+  EXPECT_EXIT(hang_up(SIG_DFL), ExitedWithCode(kToldToEnd), "");
+}
+
+TEST(Signals, OfAClosedTerminalSayNothingUnderNohup) {
+  EXPECT_EXIT(hang_up(SIG_IGN), ExitedWithCode(kGoesOn), "");
+}
+
+TEST(Module, TellsChannelsThatLcmDoesNotTake) {
+  config::CommonOptions options;
+  options.lcm_url = "memq://";
+  Module module("test", options);
+  const auto subscribe = [&](const std::string& channel) {
+    module.subscribe_all<module_status_t>(channel, [](const module_status_t&) {});
+  };
+  EXPECT_EQ(test::error_of<config::UsageError>([&] { subscribe(""); }),
+            "channel '' has 0 characters, LCM takes 1 to 63; choose another name");
+
+  ::testing::internal::CaptureStderr();
+  module.publish(std::string(64, 'A'), module_status_t{});
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              HasSubstr("messages cannot be sent: channel 'AAA"));
+}
+
+}  // namespace
+}  // namespace limbcast::lcm_io
