@@ -110,15 +110,6 @@ TEST(PaperFitter, ReportsNobodyInCloudsWithoutAPerson) {
   EXPECT_FALSE(fitter.fit(segment, stamp));
 }
 
-TEST(PaperFitter, ReportsNobodyOfWhomThereIsAHeadAlone) {
-  Segment segment;
-  segment.seed_m = {0.0F, -0.6F, 3.0F};
-  // A pole over the head, where no link ends.
-  for (int i = 0; i < 400; ++i)
-    segment.points_m.push_back(segment.seed_m + Vector3f(0.02F * (i % 4), -0.01F * (i / 4), 0.0F));
-  EXPECT_FALSE(PaperFitter().fit(segment, standing_figure().stamp));
-}
-
 TEST(PaperFitter, IgnoresNanPointsAmongGoodOnes) {
   Figure figure = standing_figure();
   const PaperFitter fitter;

@@ -53,7 +53,6 @@ bool scales_agree(const std::vector<float>& scales, float average,
 bool is_valid(const FittedPose& pose, const HumanModel& model, const Eigen::Matrix3f& axes,
               const PaperFitterParams& params) {
   const std::vector<float> scales = link_scales(pose, model);
-  if (scales.empty()) return false;  // a head alone is no body
   const float scale = average_scale(scales, params.scale_average);
   if (!scales_agree(scales, scale, params)) return false;
   const JointAngles angles = fitted_angles(pose, model, axes);

@@ -17,7 +17,7 @@ float average_scale(const std::vector<float>& scales, ScaleAverage average);
 /// The 2 sigma rule: no link's scale is farther from `average` than twice the deviation.
 bool scales_agree(const std::vector<float>& scales, float average, const PaperFitterParams& params);
 
-/// All checks of section III-C.3, and a body has a link.
+/// All checks of section III-C.3. They ask nothing of a head alone, which is valid.
 bool is_valid(const FittedPose& pose, const HumanModel& model, const Eigen::Matrix3f& axes,
               const PaperFitterParams& params);
 
