@@ -19,7 +19,6 @@ namespace {
 
 using lcm_io::LogEvent;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::SizeIs;
 
 class ReplayProgram : public ::testing::Test {
