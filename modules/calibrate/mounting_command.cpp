@@ -1,6 +1,4 @@
 #include <cstdio>
-#include <filesystem>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -22,19 +20,6 @@ struct MountingOptions {
   std::string depth_source, calibration, output;
   int max_frames = 10;
 };
-
-/// What is read, without the calibration, which may be completed in its place: logs, videos and
-/// cameras, or a folder's pictures.
-std::vector<std::string> inputs_of(const MountingOptions& options) {
-  static const std::regex picture(".+_(left|right|color|depth)");
-  const SourceOptions& source = options.source;
-  std::vector<std::string> paths = {source.source, source.second_source, options.depth_source};
-  std::error_code no_folder;
-  for (const auto& file : std::filesystem::directory_iterator(source.source, no_folder))
-    if (std::regex_match(file.path().stem().string(), picture))
-      paths.push_back(file.path().string());
-  return paths;
-}
 
 /// The ground is looked for here.
 reconstructor::ReconstructorOptions without_ground() {
@@ -100,7 +85,9 @@ bool run_mounting(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return true;
   if (options.output.empty()) throw config::UsageError("--output is missing; see --help");
-  config::check_output_file("--output", options.output, inputs_of(options));
+  std::vector<std::string> inputs = pictures_read(options.source);
+  inputs.push_back(options.depth_source);
+  config::check_output_file("--output", options.output, inputs);
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
 

@@ -4,6 +4,7 @@
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
 #include <opencv2/imgproc.hpp>
+#include <regex>
 
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/encoded_image.hpp"
@@ -131,6 +132,17 @@ void visit_pairs(const SourceOptions& options, const Take& take) {
   } else {
     visit_stream(options, take);
   }
+}
+
+std::vector<std::string> pictures_read(const SourceOptions& source) {
+  static const std::regex picture(".+_(left|right|color|depth)");
+  std::vector<std::string> paths = {source.source, source.second_source};
+  std::error_code no_folder;
+  for (const auto& file : std::filesystem::directory_iterator(source.source, no_folder)) {
+    if (std::regex_match(file.path().stem().string(), picture))
+      paths.push_back(file.path().string());
+  }
+  return paths;
 }
 
 StereoCalibration find_calibration(const std::string& path, const std::string& source) {

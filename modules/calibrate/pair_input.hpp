@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/camera/calibration.hpp"
 #include "common/config/options.hpp"
@@ -16,6 +17,10 @@ void check_not_told_to_end();
 
 /// Declares --source and what belongs to it.
 void declare_source(config::Section& section, SourceOptions& options);
+
+/// What is read: logs, videos and cameras, or a folder's pictures. Its calibration is not among
+/// them, since it may be completed in its place.
+std::vector<std::string> pictures_read(const SourceOptions& source);
 
 /// Do the pairs come one after another (video, camera, log) or as separate shots (folder)?
 bool in_sequence(const std::string& source);

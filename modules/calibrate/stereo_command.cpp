@@ -1,7 +1,5 @@
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -101,17 +99,6 @@ bool accept(const StereoFit& fit, const cv::Size& size) {
   return verdict.faults.empty();
 }
 
-/// What is read: logs, videos and cameras, or a folder's pictures.
-std::vector<std::string> inputs_of(const SourceOptions& source) {
-  static const std::regex picture_of_pair(".+_(left|right)");
-  std::vector<std::string> paths = {source.source, source.second_source};
-  std::error_code no_folder;
-  for (const auto& file : std::filesystem::directory_iterator(source.source, no_folder))
-    if (std::regex_match(file.path().stem().string(), picture_of_pair))
-      paths.push_back(file.path().string());
-  return paths;
-}
-
 bool calibrate(const Options& options) {
   const Board board = to_board(options.board);
   const ViewCollector collector = in_sequence(options.source.source)
@@ -142,7 +129,7 @@ bool run_stereo(int argc, const char* const* argv) {
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
   if (options.output.empty()) throw config::UsageError("--output is missing; see --help");
-  const std::vector<std::string> inputs = inputs_of(options.source);
+  const std::vector<std::string> inputs = pictures_read(options.source);
   config::check_output_file("--output", options.output, inputs);
   config::check_output_file("--picture", options.picture, inputs);
   check_picture_ending(options.picture);
