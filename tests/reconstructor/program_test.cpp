@@ -102,12 +102,13 @@ TEST_F(ReconstructorProgram, WarnsInItsStatusOfARightCameraThatTurnedAboutItsUpr
   const stereo_calibration_t drifted =
       lcm_io::to_message(turned, calibration_.utime, calibration_.sensor);
 
-  // 520 px * 0.006 = 3.1 px; told gravity is off by half a degree, or 0.5 px.
+  // 520 px * 0.006 = 3.1 px; told gravity is off by half a degree, or 0.5 px, and the first frames
+  // of people who hide the ground by as much again.
   ASSERT_TRUE(feed_until(drifted, [](const module_status_t& status) {
     return status.note.find("leans by") != std::string::npos;
   }));
   EXPECT_THAT(status_->note, HasSubstr("the ground before 'stereo' leans by"));
-  EXPECT_THAT(status_->note, ContainsRegex("disparities are off by (2.[5-9]|3.[0-9]|4.[0-3]) px"));
+  EXPECT_THAT(status_->note, ContainsRegex("disparities are off by [2-4].[0-9] px"));
   EXPECT_THAT(program_.output(), HasSubstr("WARNING the ground before 'stereo' leans by"));
   ASSERT_TRUE(feed_until(calibration_, [](const auto& status) { return status.note.empty(); }));
 }
