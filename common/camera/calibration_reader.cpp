@@ -1,45 +1,22 @@
 #include "common/camera/calibration_reader.hpp"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "common/camera/opencv_conversion.hpp"
+#include "common/camera/calibration_checks.hpp"
 #include "common/camera/yaml_reader.hpp"
 #include "common/formatted.hpp"
 #include "common/input_error.hpp"
-#include "common/units.hpp"
 
 namespace limbcast {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Above this a baseline is taken for one in millimetres or board squares [m]. No stereo head for
-/// people has one.
-constexpr double kLargestBaseline_m = 5.0;
-/// Cameras of a pair look the same way, or hardly see the same; more is a mistaken sign or axis.
-constexpr double kLargestTurn_deg = 60.0;
-/// Lenses of a pair are alike; more is a wrong unit or another camera's calibration.
-constexpr double kLargestFocalRatio = 2.0;
-/// T and P2 tell the same baseline but for rounding; more are two units or two calibrations.
-constexpr double kBaselineTolerance = 0.05;
-/// cv::stereoRectify may move the principal point out of the image, but not by more than so many
-/// image sizes where the cameras look the same way.
-constexpr double kRectifiedSlack = 1.0;
 /// Above this a height is taken for one in millimetres or a mistyped one [m].
 constexpr double kLargestSensorHeight_m = 100.0;
-
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
 
 int read_size(const YamlReader& yaml, const std::string& key) {
   const int size_px = yaml.integer(key);
@@ -48,21 +25,6 @@ int read_size(const YamlReader& yaml, const std::string& key) {
               "must be 1 to " + std::to_string(kMaxImageSide) + " px");
   }
   return size_px;
-}
-
-PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, int width, int height,
-                              const Eigen::Matrix3d& K) {
-  if (K(0, 0) <= 0.0 || K(1, 1) <= 0.0) {
-    yaml.fail(key, "has focal lengths " + text_of(K(0, 0)) + " and " + text_of(K(1, 1)) + " px",
-              "both must be > 0");
-  }
-  if (K(0, 2) < 0.0 || K(0, 2) >= width || K(1, 2) < 0.0 || K(1, 2) >= height) {
-    yaml.fail(key,
-              "has its principal point (" + text_of(K(0, 2)) + ", " + text_of(K(1, 2)) +
-                  ") outside the image of " + std::to_string(width) + "x" + std::to_string(height),
-              "give the calibration of this image size");
-  }
-  return {width, height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
 }
 
 std::vector<double> read_distortion(const YamlReader& yaml, const std::string& key) {
@@ -82,7 +44,10 @@ LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
   LensCalibration lens;
   lens.camera = checked_pinhole(yaml, matrix_key, width, height,
                                 Eigen::Matrix3d(yaml.matrix(matrix_key, 3, 3)));
-  if (yaml.has(distortion_key)) lens.distortion = read_distortion(yaml, distortion_key);
+  if (yaml.has(distortion_key)) {
+    lens.distortion = read_distortion(yaml, distortion_key);
+    check_distortion(yaml, distortion_key, lens);
+  }
   return lens;
 }
 
@@ -116,66 +81,6 @@ Mounting read_mounting(const YamlReader& yaml) {
   return mounting;
 }
 
-void check_baseline(const YamlReader& yaml, const std::string& key, const Eigen::Vector3d& T) {
-  const double baseline = -T.x();
-  if (std::abs(T.y()) > std::abs(T.x())) {
-    yaml.fail(key, "puts one camera above the other", "mount them side by side");
-  }
-  if (std::abs(T.z()) > std::abs(T.x())) {
-    yaml.fail(key, "puts one camera in front of the other", "mount them side by side");
-  }
-  if (baseline <= 0.0) {
-    yaml.fail(key, "gives a baseline of " + text_of(baseline) + " m, must be > 0",
-              "swap the left and right cameras");
-  }
-  if (T.norm() > kLargestBaseline_m) {
-    yaml.fail(key, "gives a baseline of " + text_of(T.norm()) + " m, must be < 5",
-              "write it in metres, not millimetres or board squares");
-  }
-}
-
-void check_rectified(const YamlReader& yaml, const std::string& key,
-                     const Eigen::Matrix<double, 3, 4>& P, const PinholeCamera& camera) {
-  if (P(0, 0) <= 0.0) yaml.fail(key, "has no focal length > 0", "calibrate again");
-  const auto is_near = [](double place, int size) {
-    return place >= -kRectifiedSlack * size && place < (1.0 + kRectifiedSlack) * size;
-  };
-  if (is_near(P(0, 2), camera.width) && is_near(P(1, 2), camera.height)) return;
-  yaml.fail(key,
-            "has its principal point (" + text_of(P(0, 2)) + ", " + text_of(P(1, 2)) +
-                ") far outside the image of " + size_text(camera.width, camera.height),
-            "calibrate again, or give the calibration of this image size");
-}
-
-/// The cameras of a pair have like lenses and look the same way. The keys are those of the right
-/// camera's matrix and turn.
-void check_alike(const YamlReader& yaml, const std::string& matrix_key,
-                 const std::string& rotation_key, const StereoCalibration& calibration) {
-  const double ratio = calibration.right.camera.fx / calibration.left.camera.fx;
-  if (std::max(ratio, 1.0 / ratio) > kLargestFocalRatio) {
-    yaml.fail(matrix_key,
-              "has a focal length of " + text_of(calibration.right.camera.fx) +
-                  " px, the left camera " + text_of(calibration.left.camera.fx),
-              "give both cameras like lenses, or calibrate again");
-  }
-  const double turn_deg = kDegreesPerRadian<double> * Eigen::AngleAxisd(calibration.R).angle();
-  if (turn_deg > kLargestTurn_deg) {
-    yaml.fail(rotation_key, "turns the cameras by " + text_of(turn_deg) + " degrees",
-              "must be at most " + text_of(kLargestTurn_deg) +
-                  "; mount them to look the same way, and calibrate again");
-  }
-}
-
-/// `T` and the rectified cameras tell the same baseline.
-void check_same_baseline(const YamlReader& yaml, const Eigen::Vector3d& T,
-                         const Eigen::Matrix<double, 3, 4>& P2) {
-  const double rectified_m = -P2(0, 3) / P2(0, 0);
-  if (std::abs(T.norm() - rectified_m) <= kBaselineTolerance * T.norm()) return;
-  yaml.fail("P2",
-            "has a baseline of " + text_of(rectified_m) + " m, 'T' of " + text_of(T.norm()) + " m",
-            "give both of one calibration, in metres, or leave R1 R2 P1 P2 out");
-}
-
 std::optional<Rectification> read_rectification(const YamlReader& yaml,
                                                 const StereoCalibration& calibration) {
   if (!yaml.has("R1") && !yaml.has("R2") && !yaml.has("P1") && !yaml.has("P2")) return std::nullopt;
@@ -186,6 +91,7 @@ std::optional<Rectification> read_rectification(const YamlReader& yaml,
   rectification.P2 = yaml.matrix("P2", 3, 4);
   check_rectified(yaml, "P1", rectification.P1, calibration.left.camera);
   check_rectified(yaml, "P2", rectification.P2, calibration.right.camera);
+  check_rows_match(yaml, "P2", rectification);
   check_baseline(yaml, "P2", {rectification.P2(0, 3) / rectification.P2(0, 0), 0.0, 0.0});
   check_same_baseline(yaml, calibration.T, rectification.P2);
   return rectification;
@@ -222,10 +128,7 @@ std::optional<DepthCamera> read_depth_camera(const YamlReader& yaml) {
   camera.lens = read_lens(yaml, "depth_camera_matrix", "depth_distortion_coefficients", "depth_");
   camera.R = read_rotation(yaml, "R");
   camera.T = yaml.matrix("T", 3, 1);
-  if (camera.T.norm() > kLargestBaseline_m) {
-    yaml.fail("T", "puts the cameras " + text_of(camera.T.norm()) + " m apart, must be < 5",
-              "write it in metres, not millimetres");
-  }
+  check_near(yaml, "T", camera.T);
   return camera;
 }
 
@@ -249,6 +152,7 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
     right.fail("projection_matrix", "has no baseline (P[3] is 0)",
                "calibrate the two as a stereo pair");
   }
+  check_rows_match(right, "projection_matrix", rectification);
   const Eigen::Vector3d t_rectified{rectification.P2(0, 3) / rectification.P2(0, 0), 0.0, 0.0};
   check_baseline(right, "projection_matrix", t_rectified);
   // p_rect_right = p_rect_left + t, with p_rect_left = R1 p_left and p_rect_right = R2 p_right.
@@ -271,14 +175,10 @@ fs::path yaml_in(const fs::path& folder, const std::string& stem) {
                    "right.yaml, or a calibration file");
 }
 
-fs::path right_of(const fs::path& left) {
+std::optional<fs::path> right_of(const fs::path& left) {
   std::string name = left.filename().string();
   const std::size_t place = name.rfind("left");
-  if (place == std::string::npos) {
-    throw InputError(left.string() +
-                     ": is the camera_info of one camera; name the pair left.yaml and " +
-                     "right.yaml and give the left one");
-  }
+  if (place == std::string::npos) return std::nullopt;
   name.replace(place, 4, "right");
   return left.parent_path() / name;
 }
@@ -309,7 +209,18 @@ StereoCalibration read_stereo_calibration(const std::string& path) {
   const YamlReader yaml(path);
   check_is_stereo(yaml);
   if (!yaml.has("camera_matrix")) return read_opencv_stereo(yaml);
-  return read_ros_pair(yaml, YamlReader(right_of(path).string()));
+  const auto right = right_of(path);
+  if (!right) {
+    throw InputError(path + ": is the camera_info of one camera; name the pair left.yaml and " +
+                     "right.yaml and give the left one");
+  }
+  return read_ros_pair(yaml, YamlReader(right->string()));
+}
+
+std::vector<std::string> calibration_files(const std::string& path) {
+  std::vector<std::string> files{path};
+  if (const auto right = right_of(path)) files.push_back(right->string());
+  return files;
 }
 
 DepthCalibration read_depth_calibration(const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/camera/calibration.hpp"
 
@@ -16,6 +17,9 @@ namespace limbcast {
 /// Optional in the (left) file: down (3 numbers, gravity in the rectified left camera),
 /// sensor_height_m. Throws InputError: file, key, what was found, what to do.
 StereoCalibration read_stereo_calibration(const std::string& path);
+/// The files that a calibration at `path`, no folder, is read from: itself, and a ROS pair's right
+/// one.
+std::vector<std::string> calibration_files(const std::string& path);
 
 /// Reads a depth camera's calibration: image_width, image_height, camera_matrix,
 /// distortion_coefficients (OpenCV or ROS YAML), depth_scale (metres a unit, default 0.001), and

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "common/camera/calibration_reader.hpp"
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"
 #include "common/sources/log_playback.hpp"
@@ -22,9 +23,10 @@ constexpr std::chrono::milliseconds kTick{20};
 
 /// Files that are read. A folder may hold logs besides, which are not.
 std::vector<std::string> files_read(const SourceProcessOptions& options) {
+  std::vector<std::string> inputs = calibration_files(options.calibration);
+  inputs.insert(inputs.end(), {options.source.source, options.source.second_source});
   std::vector<std::string> files;
-  for (const std::string& input :
-       {options.source.source, options.source.second_source, options.calibration}) {
+  for (const std::string& input : inputs) {
     std::error_code ignored;
     if (!fs::is_directory(input, ignored)) {
       files.push_back(input);

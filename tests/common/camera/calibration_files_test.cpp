@@ -129,6 +129,12 @@ TEST_F(StereoCalibrationFile, FindsTheRightRosFileBesideTheLeft) {
   EXPECT_DOUBLE_EQ(baseline_m(read_stereo_calibration(left)), 0.12);
 }
 
+TEST_F(StereoCalibrationFile, IsOneOfTwoFilesWhereItIsARosPairs) {
+  EXPECT_THAT(calibration_files("a/front_left.yaml"),
+              ::testing::ElementsAre("a/front_left.yaml", "a/front_right.yaml"));
+  EXPECT_THAT(calibration_files("left/stereo.yml"), ::testing::ElementsAre("left/stereo.yml"));
+}
+
 TEST_F(StereoCalibrationFile, TellsThatRosCamerasAreSwapped) {
   folder_.write("left.yaml", yaml(ros_entries("0"), ""));
   folder_.write("right.yaml", yaml(ros_entries("48"), ""));
@@ -214,6 +220,51 @@ TEST_F(StereoCalibrationFile, RefusesARectificationThatDoesNotBelongToTheCameras
       HasSubstr("'P1' has its principal point (5000, 240) far outside the image of 640x480"));
   EXPECT_THAT(error_of_file(with_projections("320.", "-64.")),
               HasSubstr("'P2' has a baseline of 0.128 m, 'T' of 0.120021 m"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesARectificationOfOtherRowsOrFocalLengths) {
+  const auto error_of_right = [this](const std::string& fx, const std::string& fy,
+                                     const std::string& cy) {
+    Entries entries = opencv_entries();
+    entries["R1"] = entries["R2"] = matrix(3, 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.");
+    entries["P1"] = matrix(3, 4, "500., 0., 320., 0., 0., 500., 240., 0., 0., 0., 1., 0.");
+    entries["P2"] =
+        matrix(3, 4, fx + ", 0., 320., -60., 0., " + fy + ", " + cy + ", 0., 0., 0., 1., 0.");
+    return error_of_file(yaml(entries));
+  };
+  const std::string kOther = "'P2' has another focal length or other rows";
+  EXPECT_THAT(error_of_right("510.", "500.", "240."), HasSubstr(kOther));
+  EXPECT_THAT(error_of_right("500.", "510.", "240."), HasSubstr(kOther));
+  EXPECT_THAT(error_of_right("500.", "500.", "241."), HasSubstr(kOther));
+  EXPECT_THAT(error_of_right("500.", "0.", "240."), HasSubstr("'P2' has no focal length > 0"));
+  EXPECT_THAT(error_of_right("0.5", "0.5", "240."),
+              HasSubstr("'P2' has a focal length of 0.5 px, the lens 510"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesAMatrixOfNoCamera) {
+  for (const char* data :
+       {"500., 0., 320., 0., 501., 240., 0., 0., 2.", "500., 50., 320., 0., 501., 240., 0., 0., 1.",
+        "500., 0., 320., 0., 501., 240., 0., 1., 1."})
+    EXPECT_THAT(error_with("K1", matrix(3, 3, data)), HasSubstr("'K1' is no camera matrix"));
+  EXPECT_THAT(error_with("K1", matrix(3, 3, "500., 0., 320., 0., 1., 240., 0., 0., 1.")),
+              HasSubstr("'K1' has focal lengths 500 and 1 px"));
+}
+
+TEST_F(StereoCalibrationFile, RefusesADistortionThatFoldsTheImage) {
+  // 0.4 + 8 * 0.4^3 - 60 * 0.4^5 + 100 * 0.4^7 = 0.46; from there on it falls.
+  EXPECT_THAT(error_with("D1", matrix(1, 5, "8., -60., 0., 0., 100.")),
+              HasSubstr("'D1' folds the image: 231 px from its middle it ends"));
+  EXPECT_THAT(error_with("D2", matrix(1, 5, "1e6, -1e9, 5., 5., 1e12")),
+              HasSubstr("'D2' stretches the image more than 3 times"));
+  Entries wide = opencv_entries();
+  wide["K1"] = matrix(3, 3, "320., 0., 320., 0., 320., 240., 0., 0., 1.");  // 120 degrees
+  wide["D1"] = matrix(1, 8, "0.5, 0.02, 0., 0., 0., 0.9, 0.1, 0.");
+  EXPECT_NO_THROW(read_stereo_calibration(folder_.write("wide.yml", yaml(wide))));
+}
+
+TEST_F(StereoCalibrationFile, RefusesABaselineOfNothing) {
+  EXPECT_THAT(error_with("T", matrix(3, 1, "-1e-9, 0., 0.")),
+              HasSubstr("'T' gives a baseline of 1e-09 m; write it in metres"));
 }
 
 TEST_F(StereoCalibrationFile, RefusesAHeightOfNoRobot) {
