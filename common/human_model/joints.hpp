@@ -40,6 +40,11 @@ constexpr int index(Joint joint) { return static_cast<int>(joint); }
 constexpr Joint on_side(Joint left, Side side) {
   return static_cast<Joint>(index(left) + static_cast<int>(side));
 }
+/// The joint in the mirror: the other side's, or itself where there is one only.
+constexpr int mirrored(int joint) {
+  constexpr int kFirstOfTwo = index(Joint::kShoulderLeft);
+  return joint < kFirstOfTwo ? joint : ((joint - kFirstOfTwo) ^ 1) + kFirstOfTwo;
+}
 /// Joint of that name, nothing for an unknown name.
 std::optional<Joint> joint_from_name(std::string_view name);
 

@@ -90,6 +90,8 @@ Module::Module(const std::string& name, const config::CommonOptions& options)
       last_status_(std::chrono::steady_clock::now()) {
   keep_freed_memory();
   install_signal_handlers();
+  // Whoever read the log may leave; the poses go on.
+  std::signal(SIGPIPE, SIG_IGN);
   bus_.set_on_malformed([this](const std::string& channel, const std::string& reason) {
     on_malformed(channel, reason);
   });

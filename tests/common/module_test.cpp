@@ -33,10 +33,24 @@ TEST(Signals, OfAClosedTerminalSayNothingUnderNohup) {
   EXPECT_EXIT(hang_up(SIG_IGN), ExitedWithCode(kGoesOn), "");
 }
 
-TEST(Module, TellsChannelsThatLcmDoesNotTake) {
+config::CommonOptions options_of_one_process() {
   config::CommonOptions options;
   options.lcm_url = "memq://";
-  Module module("test", options);
+  return options;
+}
+
+[[noreturn]] void lose_the_reader_of_the_log() {
+  const Module module("test", options_of_one_process());
+  std::raise(SIGPIPE);
+  std::exit(kGoesOn);
+}
+
+TEST(Module, GoesOnWhenNobodyReadsItsLogAnyMore) {
+  EXPECT_EXIT(lose_the_reader_of_the_log(), ExitedWithCode(kGoesOn), "");
+}
+
+TEST(Module, TellsChannelsThatLcmDoesNotTake) {
+  Module module("test", options_of_one_process());
   const auto subscribe = [&](const std::string& channel) {
     module.subscribe_all<module_status_t>(channel, [](const module_status_t&) {});
   };

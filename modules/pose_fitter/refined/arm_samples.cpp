@@ -12,6 +12,15 @@ namespace {
 constexpr Real kImpossible = 4.0;
 constexpr Real kOutsideImage = 0.8, kInHole = 0.5;
 constexpr Real kUnexplainedReward = 1.5;
+/// A sphere of so much of the limb's radius must be free of what was seen through, with this spread
+/// [m].
+constexpr Real kFreeRadii = 0.6, kFreeSigmaM = 0.03;
+/// The surface stands so many radii before the limb's axis.
+constexpr Real kSurfaceRadii = 0.85;
+/// Square of the sigmas within which a surface is the limb's own.
+constexpr Real kOwnSigmas2 = 4.0;
+/// A limb behind what is seen may be hidden: its cost rises so much more slowly, up to this.
+constexpr Real kHiddenSlope = 0.6, kHidden = 1.0;
 
 LIMBCAST_SIMD void project(const Observation& observation, ArmSamples& samples) {
   // Adding this leaves no digits behind the point.
@@ -76,17 +85,17 @@ LIMBCAST_SIMD void weigh(Real fx_px, ArmSamples& samples) {
   const std::size_t count = samples.size();
   LIMBCAST_INDEPENDENT_ROUNDS
   for (std::size_t i = 0; i < count; ++i) {
-    const Real outside = (0.6 * radius[i] - clearance_px[i] * z[i] / fx_px) / 0.03;
+    const Real outside = (kFreeRadii * radius[i] - clearance_px[i] * z[i] / fx_px) / kFreeSigmaM;
     const Real outside2 = outside * outside;
     const Real capped = outside2 < kImpossible ? outside2 : kImpossible;
     const Real outside_cost = outside > 0.0 ? capped : 0.0;
-    const Real behind = z[i] - 0.85 * radius[i] - surface[i];
+    const Real behind = z[i] - kSurfaceRadii * radius[i] - surface[i];
     const Real sigmas2 = behind * behind / (sigma[i] * sigma[i]);
     const Real before_cost = sigmas2 < kImpossible ? sigmas2 : kImpossible;
-    const Real slope = 0.6 * sigmas2, behind_cost = slope < 1.0 ? slope : 1.0;
-    const Real reward = kUnexplainedReward * unexplained[i] * (1.0 - 0.25 * sigmas2);
+    const Real slope = kHiddenSlope * sigmas2, behind_cost = slope < kHidden ? slope : kHidden;
+    const Real reward = kUnexplainedReward * unexplained[i] * (1.0 - sigmas2 / kOwnSigmas2);
     const Real on_ray_cost = behind < 0.0 ? before_cost : behind_cost;
-    const Real seen_cost = outside_cost + on_ray_cost - (sigmas2 < 4.0 ? reward : 0.0);
+    const Real seen_cost = outside_cost + on_ray_cost - (sigmas2 < kOwnSigmas2 ? reward : 0.0);
     const Real grid_cost = surface[i] > 0.0 ? seen_cost : outside_cost + kInHole;
     cost[i] = elsewhere[i] > 0.0 ? elsewhere[i] : grid_cost;
   }

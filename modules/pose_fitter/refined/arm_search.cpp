@@ -16,8 +16,10 @@ namespace {
 /// range image, no finer than needed before a camera.
 constexpr Real kCellRad = 0.006;
 constexpr int kMostCellPx = 3;
-/// Lengths and radii along the arm, in statures.
-constexpr Real kUpperArm = 0.147, kForearm = 0.1465, kToHand = 0.05;
+/// From the wrist to the hand's middle, and radii along the arm [statures].
+constexpr Real kToHand = 0.05;
+/// From the wrist to the fingers' base [lengths of the forearm].
+constexpr Real kHandPerForearm = 0.3;
 constexpr Real kUpperArmRadius = 0.030, kElbowRadius = 0.026, kForearmRadius = 0.022,
                kWristRadius = 0.018;
 /// Spread of the surface about an arm that is only guessed [m].
@@ -28,8 +30,25 @@ constexpr Real kHalfArmLimit = 6.0, kArmLimit = 8.0;
 constexpr Real kElbowAheadLimit = 0.06, kElbowAheadSigma = 0.04;
 /// Postures nearer than this at elbow and wrist are the same [m].
 constexpr Real kSamePostureM = 0.14;
+/// Cosines to the body's side and front below which no upper arm goes, and the one across the body
+/// that only an arm before it has.
+constexpr Real kLeastOutwards = -0.75, kLeastForwards = -0.75, kLeastOutwardsBehind = -0.2;
+/// The same for arms whose wrist is seen, and cosine of the sharpest elbow.
+constexpr Real kLeastCosineOfReach = -0.8, kSharpestElbow = -0.82;
+/// Where the shoulder of a hanging arm stands against the neck, and how it rises with the arm
+/// [statures]; a short form of shoulder_offset().
+constexpr Real kShoulderOutwards = 0.0985, kShoulderUp = -0.0602, kShoulderLift = 0.0225,
+               kShoulderForwards = 0.0074;
+/// Farther than a straight arm a wrist may be, and nearer to its shoulder it may not [statures].
+constexpr Real kOverreach = 0.05, kLeastReach = 0.08;
+/// An arm of more than this share of its whole length is straight; an elbow nearer to the line
+/// shoulder-wrist than this has no way round it [statures].
+constexpr Real kStraightShare = 0.985, kLeastSwivel = 0.02;
 constexpr std::size_t kReachTargets = 120;
 constexpr int kSwivels = 12;
+
+Real upper_arm_m(Real stature_m) { return stature_m * bones()[0].length; }
+Real forearm_m(Real stature_m) { return stature_m * bones()[1].length; }
 
 /// Evenly spread unit vectors (Fibonacci lattice).
 std::vector<Vec3> sphere(int count) {
@@ -88,7 +107,8 @@ struct ArmSearch::Frame {
   /// Upper arms do not go far across the body or behind it.
   bool upper_arm_possible(const Vec3& direction) const {
     const Real out = direction.dot(outwards), forward = direction.dot(front);
-    return out >= -0.75 && forward >= -0.75 && (out >= -0.2 || forward >= 0.0);
+    return out >= kLeastOutwards && forward >= kLeastForwards &&
+           (out >= kLeastOutwardsBehind || forward >= 0.0);
   }
   Real elbow_ahead(const Vec3& elbow, const Vec3& wrist) const {
     return (elbow - 0.5 * (shoulder + wrist)).dot(front) / stature;
@@ -177,7 +197,7 @@ Real ArmSearch::sum(const ImageCosts& of_elbow, const ImageCosts& of_wrist) {
 }
 
 void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) {
-  const Real upper = kUpperArm * arm.stature;
+  const Real upper = upper_arm_m(arm.stature);
   for (const Vec3& upper_direction : directions_) {
     if (!arm.upper_arm_possible(upper_direction)) continue;
     const Vec3 elbow = arm.shoulder + upper * upper_direction;
@@ -190,11 +210,11 @@ void ArmSearch::by_directions(const Frame& arm, std::vector<ArmPosture>& found) 
 
 void ArmSearch::add_forearms(const Frame& arm, const Vec3& upper_direction, const Vec3& elbow,
                              Real half_cost, std::vector<ArmPosture>& found) {
-  const Real fore = kForearm * arm.stature;
+  const Real fore = forearm_m(arm.stature);
   tried_.clear();
   samples_.clear();
   for (const Vec3& direction : directions_) {
-    if (upper_direction.dot(direction) < -0.82) continue;
+    if (upper_direction.dot(direction) < kSharpestElbow) continue;
     const Vec3 wrist = elbow + fore * direction;
     const Real ahead = arm.elbow_ahead(elbow, wrist);
     if (ahead > kElbowAheadLimit) continue;
@@ -217,25 +237,27 @@ void ArmSearch::add_forearms(const Frame& arm, const Vec3& upper_direction, cons
 }
 
 void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPosture>& found) {
-  const Real upper = kUpperArm * arm.stature, fore = kForearm * arm.stature;
+  const Real upper = upper_arm_m(arm.stature), fore = forearm_m(arm.stature);
   Vec3 wrist = surface * (1.0 + kWristRadius * arm.stature / surface.norm());
   // The shoulder as it stands when the arm goes there.
   const Vec3 lift = arm.body_rotation.transpose() * (wrist - arm.shoulder).normalized();
   const Vec3 shoulder =
-      arm.neck + arm.body_rotation *
-                     (arm.stature * Vec3(arm.sign * 0.0985, -0.0602 + 0.0225 * lift.y(), 0.0074));
+      arm.neck + arm.body_rotation * (arm.stature * Vec3(arm.sign * kShoulderOutwards,
+                                                         kShoulderUp + kShoulderLift * lift.y(),
+                                                         kShoulderForwards));
   const Real distance = (wrist - shoulder).norm();
-  if (distance > upper + fore + 0.05 * arm.stature || distance < 0.08 * arm.stature) return;
+  if (distance > upper + fore + kOverreach * arm.stature || distance < kLeastReach * arm.stature)
+    return;
   const Vec3 along = (wrist - shoulder) / distance;
   Real to_foot = upper, height = 0.0;
-  if (distance >= 0.985 * (upper + fore)) {
+  if (distance >= kStraightShare * (upper + fore)) {
     wrist = shoulder + along * (upper + fore);
   } else {
     to_foot = (upper * upper - fore * fore + distance * distance) / (2.0 * distance);
     height = std::sqrt(std::max(0.0, upper * upper - to_foot * to_foot));
   }
   const Vec3 first = along.cross(arm.up).normalized(), second = along.cross(first);
-  const int swivels = height < 0.02 * arm.stature ? 1 : kSwivels;
+  const int swivels = height < kLeastSwivel * arm.stature ? 1 : kSwivels;
   tried_.clear();
   for (int k = 0; k < swivels; ++k) {
     const auto [cosine, sine] = swivels_[k];
@@ -243,7 +265,9 @@ void ArmSearch::reach(const Frame& arm, const Vec3& surface, std::vector<ArmPost
     const Real ahead = arm.elbow_ahead(elbow, wrist);
     if (ahead > kElbowAheadLimit) continue;
     const Vec3 upper_direction = (elbow - shoulder) / upper;
-    if (upper_direction.dot(arm.outwards) < -0.8 || upper_direction.dot(arm.front) < -0.8) continue;
+    if (upper_direction.dot(arm.outwards) < kLeastCosineOfReach ||
+        upper_direction.dot(arm.front) < kLeastCosineOfReach)
+      continue;
     tried_.push_back({Frame::elbow_cost(ahead), elbow, wrist});
   }
   add_reaching(arm, shoulder, wrist, found);
@@ -317,7 +341,7 @@ std::vector<ArmPosture> ArmSearch::postures(const BodyState& body, int side, uns
 void set_arm(BodyState& body, int side, const ArmPosture& posture) {
   body.points[kElbow + side] = posture.elbow;
   body.points[kWrist + side] = posture.wrist;
-  body.points[kHand + side] = posture.wrist + 0.3 * (posture.wrist - posture.elbow);
+  body.points[kHand + side] = posture.wrist + kHandPerForearm * (posture.wrist - posture.elbow);
 }
 
 }  // namespace limbcast::pose_fitter::refined

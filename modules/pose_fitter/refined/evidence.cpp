@@ -47,9 +47,7 @@ Real axis_sigma(const BodyState& body, const Covariance& covariance, int side) {
 
 /// Surface the sensor saw near a pixel, the nearest one; 0 where it saw nothing or through.
 Real seen_surface(const Observation& observation, const Vec3& point) {
-  const PinholeCamera& camera = observation.camera;
-  const int u = static_cast<int>(std::lround(camera.fx * point.x() / point.z() + camera.cx));
-  const int v = static_cast<int>(std::lround(camera.fy * point.y() / point.z() + camera.cy));
+  const auto [u, v] = observation.pixel_of(point);
   Real nearest = 0.0;
   for (int y = v - 1; y <= v + 1; ++y) {
     for (int x = u - 1; x <= u + 1; ++x) {
@@ -63,9 +61,7 @@ Real seen_surface(const Observation& observation, const Vec3& point) {
 
 bool in_sight(const Observation& observation, const Vec3& point, Real radius) {
   if (point.z() < 0.1) return false;
-  const PinholeCamera& camera = observation.camera;
-  const int u = static_cast<int>(std::lround(camera.fx * point.x() / point.z() + camera.cx));
-  const int v = static_cast<int>(std::lround(camera.fy * point.y() / point.z() + camera.cy));
+  const auto [u, v] = observation.pixel_of(point);
   if (!observation.in_sensor_image(u, v)) return false;
   const Real surface = seen_surface(observation, point);
   const Real noise = 2.0 * observation.noise.sigma_m(static_cast<float>(point.z()));

@@ -70,8 +70,7 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
       const Vec3 center = cones[c].point(sample.t);
       if (center.z() < kNearestM) continue;
       const Real radius = cones[c].radius(sample.t);
-      const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
-      const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
+      const auto [u, v] = observation.pixel_of(center);
       const bool inside = observation.inside(u, v);
       if (!inside && !observation.in_sensor_image(u, v)) continue;
       const Clearance clearance = clearance_at(observation, u, v);

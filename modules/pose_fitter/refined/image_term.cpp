@@ -16,11 +16,6 @@ unsigned part_of(int joint) {
   return joint < kKnee ? bit(Part::kTrunk) : bit(Part::kLegs);
 }
 
-/// The joint of the other side; a joint of the body's axis is its own.
-int mirrored(int joint) {
-  return joint < kShoulder ? joint : ((joint - kShoulder) ^ 1) + kShoulder;
-}
-
 /// Where a network marks joints, against their centres.
 struct Marks {
   /// In the body's frame (of the left side: outwards, up, to the front) [m]: head, shoulders of

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,11 @@ struct ImageLook {
   std::array<SeenJoint, kJointCount> joints;
 };
 
+/// Column and row; they may lie beside the image.
+struct Pixel {
+  int u, v;
+};
+
 /// What the sensor saw of one person, made ready for many looks, in the range image's frame.
 struct Observation {
   PointColumns fine, coarse;  ///< coarse: a quarter of the points
@@ -65,6 +71,11 @@ struct Observation {
   std::optional<Real> floor_m;     ///< place of the floor along -up, where it is known
   Eigen::Matrix3f frame_from_image = Eigen::Matrix3f::Identity();
 
+  /// That shows `point`, whose z must be positive.
+  Pixel pixel_of(const Vec3& point) const {
+    return {static_cast<int>(std::lround(camera.fx * point.x() / point.z() + camera.cx)),
+            static_cast<int>(std::lround(camera.fy * point.y() / point.z() + camera.cy))};
+  }
   bool inside(int u, int v) const {
     return u >= 0 && v >= 0 && u < camera.width && v < camera.height;
   }

@@ -48,9 +48,7 @@ Measured measured_at(const Observation& observation, const Vec3& point) {
   static constexpr std::array<std::array<int, 2>, 9> kNearestFirst = {
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
   if (point.z() < kNearestM) return {};
-  const PinholeCamera& camera = observation.camera;
-  const int u = static_cast<int>(std::lround(camera.fx * point.x() / point.z() + camera.cx));
-  const int v = static_cast<int>(std::lround(camera.fy * point.y() / point.z() + camera.cy));
+  const auto [u, v] = observation.pixel_of(point);
   for (const auto& [du, dv] : kNearestFirst) {
     if (!observation.inside(u + du, v + dv)) continue;
     const std::size_t i = observation.at(u + du, v + dv);
@@ -213,14 +211,11 @@ Real mean_cosine(const Observation& observation, const BodyState& body, int uppe
 }
 
 Real share_outside(const BodyState& body, const Observation& observation) {
-  const PinholeCamera& camera = observation.camera;
   const auto outside =
       std::count_if(body.points.begin(), body.points.begin() + kJointCount, [&](const Vec3& point) {
         if (point.z() < kNearestM) return false;
-        const Real u = camera.fx * point.x() / point.z() + camera.cx;
-        const Real v = camera.fy * point.y() / point.z() + camera.cy;
-        return !observation.in_sensor_image(static_cast<int>(std::lround(u)),
-                                            static_cast<int>(std::lround(v)));
+        const auto [u, v] = observation.pixel_of(point);
+        return !observation.in_sensor_image(u, v);
       });
   return static_cast<Real>(outside) / kJointCount;
 }

@@ -25,8 +25,7 @@ void add_skin_term(const Cones& cones, const Observation& observation, unsigned 
     const int hand = hand_cone(side);
     const Vec3 center = cones[hand].point(kPlace);
     if (center.z() < kNearestM) continue;
-    const int u = static_cast<int>(std::lround(camera.fx * center.x() / center.z() + camera.cx));
-    const int v = static_cast<int>(std::lround(camera.fy * center.y() / center.z() + camera.cy));
+    const auto [u, v] = observation.pixel_of(center);
     if (!observation.inside(u - 1, v - 1) || !observation.inside(u + 1, v + 1)) continue;
     const Real residual = distance(u, v) * center.z() / camera.fx - cones[hand].radius(kPlace);
     if (residual <= 0.0) continue;
