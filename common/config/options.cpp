@@ -29,6 +29,9 @@ constexpr std::array<std::string_view, 16> kModuleNames = {
     "tracker",       "viewer",       "replay",        "export_poses",  "evaluate",  "simulate",
     "status",        "doctor",       "log",           "calibrate"};
 
+/// What stands on the command line without a name.
+constexpr const char* kArgument = "argument";
+
 std::string with_hyphens(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
   return key;
@@ -179,8 +182,35 @@ void Parser::add_positional(const std::string& name, std::vector<std::string>& t
 bool Parser::parse(int argc, const char* const* argv) { return parse(argc, argv, std::cout); }
 
 bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
+  const std::vector<Given> all = read_command_line(argc, argv);
+  const auto given = [&all](const std::string& name) {
+    return std::any_of(all.begin(), all.end(),
+                       [&name](const Given& option) { return option.name == name; });
+  };
+  if (given("help")) return print_help(out), false;
+  if (given("version")) return out << program_ << ' ' << kVersion << '\n', false;
+
+  std::vector<std::string> on_command_line;
+  std::vector<std::string> positional_values;
+  for (const auto& [name, values] : all) {
+    if (name == kArgument) {
+      positional_values.insert(positional_values.end(), values.begin(), values.end());
+      continue;
+    }
+    const std::size_t dot = name.rfind('.');
+    const std::string section = dot == std::string::npos ? "" : name.substr(0, dot);
+    const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
+    assign("command line", section, key, values.empty() ? "true" : values.front(), false);
+    on_command_line.push_back(name);
+  }
+  assign_positionals(positional_values);
+  if (!common_.config_file.empty()) read_config_file(common_.config_file, on_command_line);
+  return true;
+}
+
+std::vector<Parser::Given> Parser::read_command_line(int argc, const char* const* argv) const {
   po::options_description all;
-  all.add_options()("help", "")("version", "")("argument", po::value<std::vector<std::string>>());
+  all.add_options()("help", "")("version", "")(kArgument, po::value<std::vector<std::string>>());
   std::set<std::string> flags;
   const auto declare = [&](const std::string& name, bool is_flag) {
     all.add_options()(name.c_str(), po::value<std::string>(), "");
@@ -200,56 +230,40 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
     if (flags.count(arguments.back()) > 0) arguments.back() += "=true";
   }
   po::positional_options_description positional;
-  positional.add("argument", -1);
-  po::parsed_options parsed(&all);
+  positional.add(kArgument, -1);
+  // No guessing from abbreviations: an option added later must not change what an old script means.
+  const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
   try {
-    // No guessing from abbreviations: an option added later must not change what an old script
-    // means.
-    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-    parsed =
-        po::command_line_parser(arguments).options(all).positional(positional).style(style).run();
+    std::vector<Given> given;
+    for (const po::option& option : po::command_line_parser(arguments)
+                                        .options(all)
+                                        .positional(positional)
+                                        .style(style)
+                                        .run()
+                                        .options)
+      given.push_back({option.string_key, option.value});
+    return given;
   } catch (const po::error& error) {
     throw UsageError(std::string("command line: ") + error.what() + "; see " + program_ +
                      " --help");
   }
-  const auto given = [&parsed](const std::string& name) {
-    return std::any_of(parsed.options.begin(), parsed.options.end(),
-                       [&name](const po::option& option) { return option.string_key == name; });
-  };
-  if (given("help")) return print_help(out), false;
-  if (given("version")) return out << program_ << ' ' << kVersion << '\n', false;
+}
 
-  std::vector<std::string> on_command_line;
-  std::vector<std::string> positional_values;
-  for (const po::option& option : parsed.options) {
-    if (option.string_key == "argument") {
-      positional_values.insert(positional_values.end(), option.value.begin(), option.value.end());
-      continue;
-    }
-    const std::size_t dot = option.string_key.rfind('.');
-    const std::string section = dot == std::string::npos ? "" : option.string_key.substr(0, dot);
-    const std::string key =
-        dot == std::string::npos ? option.string_key : option.string_key.substr(dot + 1);
-    assign("command line", section, key, option.value.empty() ? "true" : option.value.front(),
-           false);
-    on_command_line.push_back(option.string_key);
-  }
+void Parser::assign_positionals(const std::vector<std::string>& values) const {
   const bool takes_all = !positionals_.empty() && positionals_.back().targets != nullptr;
-  if (positional_values.size() > positionals_.size() && !takes_all)
-    throw UsageError("command line: unexpected argument '" +
-                     positional_values[positionals_.size()] + "'; see " + program_ + " --help");
+  if (values.size() > positionals_.size() && !takes_all)
+    throw UsageError("command line: unexpected argument '" + values[positionals_.size()] +
+                     "'; see " + program_ + " --help");
   for (std::size_t i = 0; i < positionals_.size(); ++i) {
-    if (i < positional_values.size() && positionals_[i].targets != nullptr)
-      positionals_[i].targets->assign(positional_values.begin() + static_cast<std::ptrdiff_t>(i),
-                                      positional_values.end());
-    else if (i < positional_values.size())
-      *positionals_[i].target = positional_values[i];
+    if (i < values.size() && positionals_[i].targets != nullptr)
+      positionals_[i].targets->assign(values.begin() + static_cast<std::ptrdiff_t>(i),
+                                      values.end());
+    else if (i < values.size())
+      *positionals_[i].target = values[i];
     else if (positionals_[i].required)
       throw UsageError("command line: " + positionals_[i].name + " is missing; see " + program_ +
                        " --help");
   }
-  if (!common_.config_file.empty()) read_config_file(common_.config_file, on_command_line);
-  return true;
 }
 
 void Parser::assign(const std::string& where, const std::string& section, const std::string& key,

@@ -112,6 +112,13 @@ class Parser {
     Section* section;
     bool own;
   };
+  /// An option of the command line with its values.
+  struct Given {
+    std::string name;
+    std::vector<std::string> values;
+  };
+  std::vector<Given> read_command_line(int argc, const char* const* argv) const;
+  void assign_positionals(const std::vector<std::string>& values) const;
   void assign(const std::string& where, const std::string& section, const std::string& key,
               const std::string& text, bool from_file);
   void read_config_file(const std::string& path, const std::vector<std::string>& given);

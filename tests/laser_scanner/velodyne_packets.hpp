@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ inline std::vector<std::uint8_t> vlp16_packet(double azimuth_deg, double distanc
   packet.insert(packet.end(), {returns, model});
   return packet;
 }
+
+/// Returns of a turn of vlp16_turns: 900 blocks of 0.4 degrees.
+inline constexpr std::size_t kReturnsOfATurn = std::size_t{900} * 32;
 
 /// What a VLP-16 takes for a packet, by its clock [us].
 inline constexpr std::uint32_t kVlp16Packet_us = 1327;
