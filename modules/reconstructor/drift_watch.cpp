@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/formatted.hpp"
+#include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
 #include "modules/reconstructor/colors.hpp"
 #include "modules/reconstructor/row_differences.hpp"
@@ -18,9 +19,8 @@ std::vector<double> measured_rows_px(const StereoReconstructor& reconstructor,
 }
 
 std::optional<GroundLean> measured_lean(const StereoReconstructor& reconstructor,
-                                        const StereoImages& images) {
-  if (!reconstructor.is_told_gravity(images.stamp)) return std::nullopt;  // spares a match
-  return ground_lean(reconstructor.reconstruct(images), reconstructor.focal_baseline_px_m());
+                                        const point_cloud_t& cloud) {
+  return ground_lean(lcm_io::from_message(cloud), reconstructor.focal_baseline_px_m());
 }
 
 std::string row_warning(const std::string& sensor, double drift_px) {
@@ -42,15 +42,14 @@ std::string lean_warning(const std::string& sensor, const GroundLean& ground) {
 }  // namespace
 
 void DriftWatch::look_at(const std::shared_ptr<const StereoReconstructor>& reconstructor,
-                         const stereo_images_t& pair) {
+                         const stereo_images_t& pair, const point_cloud_t& cloud) {
   Camera& camera = cameras_.get(pair.stamp.sensor);
   if (camera.reconstructor != reconstructor) camera = {reconstructor, DriftMonitor()};
   if (is_busy() || !camera.monitor.is_due(pair.stamp.utime)) return;
-  measurement_ = std::async(std::launch::async, [reconstructor, pair] {
-    const StereoImages images = lcm_io::from_message(pair);
+  measurement_ = std::async(std::launch::async, [reconstructor, pair, cloud] {
     return Measurement{pair.stamp.sensor, reconstructor, pair.stamp.utime,
-                       measured_rows_px(*reconstructor, images),
-                       measured_lean(*reconstructor, images)};
+                       measured_rows_px(*reconstructor, lcm_io::from_message(pair)),
+                       measured_lean(*reconstructor, cloud)};
   });
 }
 

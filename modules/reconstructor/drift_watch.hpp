@@ -1,6 +1,7 @@
 #pragma once
 
 #include <future>
+#include <limbcast/point_cloud_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
 #include <memory>
 #include <optional>
@@ -17,9 +18,9 @@ namespace limbcast::reconstructor {
 /// measures one pair a second, in a thread of its own, so that no frame waits for it.
 class DriftWatch {
  public:
-  /// A pair from which a cloud could be made. A new reconstructor means a new calibration.
+  /// A pair and the cloud that was made of it. A new reconstructor means a new calibration.
   void look_at(const std::shared_ptr<const StereoReconstructor>& reconstructor,
-               const stereo_images_t& pair);
+               const stereo_images_t& pair, const point_cloud_t& cloud);
   /// For the status: which camera's calibration is off and by how much; empty where none is.
   std::string warning() const;
 

@@ -33,8 +33,9 @@ void run(int argc, const char* const* argv) {
                                 "' on " + options.stereo_calibration_channel);
           return;
         }
-        module.publish_frame(options.point_cloud_channel, Stage::process(*reconstructor, message));
-        drift_watch.look_at(reconstructor, message);
+        point_cloud_t cloud = Stage::process(*reconstructor, message);
+        drift_watch.look_at(reconstructor, message, cloud);
+        module.publish_frame(options.point_cloud_channel, std::move(cloud));
         const std::string drift_before = std::exchange(drift, drift_watch.warning());
         const std::string shared = stage.warning();
         module.set_note(shared.empty() || drift.empty() ? shared + drift : shared + "; " + drift);

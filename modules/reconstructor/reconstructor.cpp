@@ -81,10 +81,6 @@ double StereoReconstructor::nearest_m() const {
   return std::max(options_.stereo_near_limit_m(), focal_baseline_px_m() / most_disparities_);
 }
 
-bool StereoReconstructor::is_told_gravity(const Stamp& stamp) const {
-  return gravity_of(stamp, mounting_).source != GravitySource::kLevel;
-}
-
 DisparityImage StereoReconstructor::match(const RectifiedPair& pair) const {
   MatcherParams params;
   const int num_disparities = find_num_disparities(pair, num_disparities_, most_disparities_);

@@ -24,8 +24,6 @@ class StereoReconstructor {
   const Rectifier& rectifier() const { return rectifier_; }
   /// Disparity times distance.
   double focal_baseline_px_m() const { return rectifier_.camera().fx * rectifier_.baseline_m(); }
-  /// Whether the frame or the mounting tells where gravity points.
-  bool is_told_gravity(const Stamp& stamp) const;
   /// Disparities that are searched where nothing is nearer than usual, and at most.
   int num_disparities() const { return num_disparities_; }
   int most_disparities() const { return most_disparities_; }
