@@ -14,6 +14,12 @@ struct Closer {
 };
 using Handle = std::unique_ptr<void, Closer>;
 
+/// Whether the last picture's data ended before the picture did. Other warnings are of what cameras
+/// leave between frames, or of a damaged spot.
+bool ended_early(tjhandle handle) {
+  return std::string(tjGetErrorStr2(handle)).find("premature end") != std::string::npos;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> compress_jpeg(const cv::Mat& image, int quality) {
@@ -44,11 +50,10 @@ cv::Mat decompress_jpeg(const std::vector<std::uint8_t>& bytes, const cv::Size& 
     return {};
   const bool grey = colors == TJCS_GRAY;
   cv::Mat image(size, grey ? CV_8UC1 : CV_8UC3);
-  // A warning is what cameras leave between frames, and a damaged spot of the picture.
   if (tjDecompress2(handle.get(), bytes.data(), num_bytes, image.data, width,
                     static_cast<int>(image.step), height, grey ? TJPF_GRAY : TJPF_BGR,
                     TJFLAG_ACCURATEDCT) != 0 &&
-      tjGetErrorCode(handle.get()) != TJERR_WARNING)
+      (tjGetErrorCode(handle.get()) != TJERR_WARNING || ended_early(handle.get())))
     return {};
   return image;
 }

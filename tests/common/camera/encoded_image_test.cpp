@@ -84,6 +84,23 @@ TEST(EncodedImage, TornFilesAreRecognisedWhereverTheyEnd) {
   }
 }
 
+TEST(EncodedImage, TornPicturesWithAnEndAreNotTakenForWhole) {
+  const EncodedImage whole = encode_jpeg(ramp(CV_8UC3), 90);
+  constexpr std::size_t kEndMarker = 2;
+  std::vector<std::uint8_t> torn(whole.bytes.begin(), whole.bytes.end() - 200);
+  torn.insert(torn.end(), whole.bytes.end() - kEndMarker, whole.bytes.end());
+  const EncodedImage image = identify_image(torn, "test");
+  EXPECT_EQ(error_of<InputError>([&] { decode_image(image, "a_left.jpg"); }),
+            "a_left.jpg: cannot be decoded; copy or record it again, or leave the frame out");
+}
+
+TEST(EncodedImage, WhatACameraLeavesBehindAPictureDoesNotMatter) {
+  EncodedImage image = encode_jpeg(ramp(CV_8UC3), 90);
+  const std::vector<std::uint8_t> rest(12, 0x55);
+  image.bytes.insert(image.bytes.end() - 2, rest.begin(), rest.end());
+  EXPECT_EQ(decode_image(identify_image(image.bytes, "test"), "test").size(), cv::Size(64, 48));
+}
+
 TEST(EncodedImage, OtherFilesAreNamed) {
   const test::TemporaryFolder folder;
   const std::string text = folder.write("a_left.jpg", "this is no picture");
