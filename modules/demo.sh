@@ -2,8 +2,9 @@
 # From nothing to poses: installs and builds what is missing, runs the chain as separate processes over LCM on a
 # recording, prints a line for each frame and person, and ends with pictures and the accuracy.
 #   modules/demo.sh                            the demo log of this repository
-#   modules/demo.sh FOLDER_OR_LOG [CALIBRATION]  your own: *_left/*_right images, *_color/*_depth images, or a log
-#                                              made by lcm-logger; CALIBRATION: default FOLDER/calibration.yml
+#   modules/demo.sh RECORDING [CALIBRATION]    your own: a folder of *_left/*_right images, *_color/*_depth images or
+#                                              laser scans (.pcd, .ply, .bin), a Velodyne's .pcap, or a log made by
+#                                              lcm-logger; CALIBRATION of images: default FOLDER/calibration.yml
 # Settings (environment): DEMO_OUTPUT folder for log and pictures, DEMO_RATE frames a second.
 # Exit codes: 0 done, 1 failed, 2 wrong usage or input.
 set -euo pipefail
@@ -15,8 +16,8 @@ fail() { echo "demo: $*" >&2; exit 1; }
 refuse() { echo "demo: $*" >&2; exit 2; }
 step() { printf '\n[%s/5] %s\n' "$1" "$2"; }
 
-usage="call it as modules/demo.sh [FOLDER_OR_LOG [CALIBRATION]]"
-case ${1:-} in -*) refuse "$1: there are no options; $usage" ;; esac
+usage="call it as modules/demo.sh [RECORDING [CALIBRATION]]"
+case ${1:-} in -h | --help) sed -n '2,/^set -/s/^# \{0,1\}//p' "$root/modules/demo.sh"; exit 0 ;; -*) refuse "$1: there are no options; $usage" ;; esac
 [ $# -le 2 ] || refuse "$3: one argument too many; $usage"
 input=${1:-$root/logs/demo.log}
 calibration=${2:-}
@@ -43,7 +44,9 @@ if [ -e "$output" ] && [ ! -e "$output/processes" ] && [ -n "$(ls -A "$output")"
 fi
 
 # What feeds the chain: the camera process of this kind of recording.
-if [ -d "$input" ]; then
+if [[ $input == *.pcap ]] || { [ -d "$input" ] && ls "$input" | grep -Eiq '\.(pcd|ply|bin)$'; }; then
+  camera=(limbcast-laser-scanner --source "$input")
+elif [ -d "$input" ]; then
   calibration=${calibration:-$input/calibration.yml}
   [ -e "$calibration" ] || refuse "$calibration: no such calibration; give it as second argument"
   if compgen -G "$input/*_left.*" >/dev/null; then
@@ -51,12 +54,14 @@ if [ -d "$input" ]; then
   elif compgen -G "$input/*_color.*" >/dev/null; then
     camera=(limbcast-depth-camera --source "$input" --calibration "$calibration")
   else
-    refuse "$input: holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images"
+    refuse "$input: holds no *_left.* and *_right.* images, no *_color.* and *_depth.png images and no scans"
   fi
 elif grep -aq -m 1 DEPTH_IMAGES "$input"; then
   camera=(limbcast-depth-camera --source "$input")
-else
+elif grep -aq -m 1 STEREO_IMAGES "$input"; then
   camera=(limbcast-stereo-camera --source "$input")
+else
+  refuse "$input: holds no images; a log of clouds goes through limbcast-replay"
 fi
 
 step 1 "What limbcast needs"

@@ -176,7 +176,7 @@ void Parser::add_positional(const std::string& name, std::string& target, const 
 
 void Parser::add_positional(const std::string& name, std::vector<std::string>& targets,
                             const std::string& help) {
-  positionals_.push_back({name, help, nullptr, true, &targets});
+  positionals_.push_back({name, help, nullptr, name.front() != '[', &targets});
 }
 
 bool Parser::parse(int argc, const char* const* argv) { return parse(argc, argv, std::cout); }
@@ -249,11 +249,16 @@ std::vector<Parser::Given> Parser::read_command_line(int argc, const char* const
   }
 }
 
+void Parser::refuse_argument(const std::string& value) const {
+  const bool is_switch = value == "true" || value == "false";
+  throw UsageError("command line: unexpected argument '" + value + "'; " +
+                   (is_switch ? "write --key=" + value : "see " + program_ + " --help"));
+}
+
 void Parser::assign_positionals(const std::vector<std::string>& values) const {
   const bool takes_all = !positionals_.empty() && positionals_.back().targets != nullptr;
   if (values.size() > positionals_.size() && !takes_all)
-    throw UsageError("command line: unexpected argument '" + values[positionals_.size()] +
-                     "'; see " + program_ + " --help");
+    refuse_argument(values[positionals_.size()]);
   for (std::size_t i = 0; i < positionals_.size(); ++i) {
     if (i < values.size() && positionals_[i].targets != nullptr)
       positionals_[i].targets->assign(values.begin() + static_cast<std::ptrdiff_t>(i),
@@ -346,7 +351,7 @@ void Parser::print_help(std::ostream& out) const {
         << (name.empty() ? std::string("Common options") : "Section [" + name + "]") << ":\n";
     for (const Section::Entry& entry : bound.section->entries_) {
       out << "  --" << (bound.own || name.empty() ? "" : name + ".") << entry.key
-          << (entry.is_flag ? "" : " VALUE") << "\n        " << entry.help;
+          << (entry.is_flag ? "[=VALUE]" : " VALUE") << "\n        " << entry.help;
       if (!entry.unit.empty()) out << " [" << entry.unit << ']';
       out << " (" << entry.allowed_text;
       if (!entry.default_text.empty()) out << ", default " << entry.default_text;

@@ -51,7 +51,7 @@ class Section {
   void add_name(const std::string& key, std::string& target, const std::string& help);
   /// The name of an LCM channel.
   void add_channel(const std::string& key, std::string& target, const std::string& help);
-  /// true/false; on the command line the bare key means true.
+  /// true/false; on the command line the bare key means true, and false is "--key=false".
   void add(const std::string& key, bool& target, const std::string& help);
   void add_choice(const std::string& key, std::string& target,
                   const std::vector<std::string>& choices, const std::string& help);
@@ -90,7 +90,8 @@ class Parser {
   void add(Section& section, bool own = true);
   /// A required ("IN.log") or optional ("[FOLDER]") argument without a key.
   void add_positional(const std::string& name, std::string& target, const std::string& help);
-  /// One or more arguments ("IN.log..."): all that follow the others. The last to be added.
+  /// One or more arguments ("IN.log...") or any number ("[SET...]", where `targets` stay as they
+  /// are without any): all that follow the others. The last to be added.
   void add_positional(const std::string& name, std::vector<std::string>& targets,
                       const std::string& help);
 
@@ -119,6 +120,7 @@ class Parser {
   };
   std::vector<Given> read_command_line(int argc, const char* const* argv) const;
   void assign_positionals(const std::vector<std::string>& values) const;
+  [[noreturn]] void refuse_argument(const std::string& value) const;
   void assign(const std::string& where, const std::string& section, const std::string& key,
               const std::string& text, bool from_file);
   void read_config_file(const std::string& path, const std::vector<std::string>& given);

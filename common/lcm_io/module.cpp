@@ -9,7 +9,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <limbcast/module_status_t.hpp>
 
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
@@ -21,6 +20,8 @@ namespace {
 constexpr std::chrono::milliseconds kStatusPeriod{1000};
 /// How long the module may take to see a signal or that the status is due.
 constexpr std::chrono::milliseconds kWait{50};
+
+constexpr const char* kWaiting = "waiting";
 
 volatile std::sig_atomic_t g_stop_requested = 0;
 
@@ -41,6 +42,18 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, kLargestKept_bytes);
   mallopt(M_TRIM_THRESHOLD, kLargestKept_bytes);
 }
+
+/// While it lives, a message is worked on.
+class Working {
+ public:
+  explicit Working(std::atomic<bool>& is_working) : is_working_(is_working) { is_working_ = true; }
+  ~Working() { is_working_ = false; }
+  Working(const Working&) = delete;
+  Working& operator=(const Working&) = delete;
+
+ private:
+  std::atomic<bool>& is_working_;
+};
 
 /// Until signals are handled they end a module that waits here, as they should.
 const std::string& url_of_network(const std::string& name, const config::CommonOptions& options) {
@@ -108,12 +121,39 @@ void Module::give_way(int num_stages_after) {
 }
 
 void Module::run() {
-  while (!stop_requested()) spin(kWait);
+  {
+    const StatusThread statuses(*this);
+    while (!stop_requested()) bus_.handle(kWait);
+  }
   config::log(config::LogLevel::kInfo, "ends");
 }
 
-void Module::spin(std::chrono::milliseconds timeout) {
-  bus_.handle(timeout);
+Module::StatusThread::StatusThread(Module& module)
+    : module_(module), thread_([&module] { module.send_statuses(); }) {}
+
+Module::StatusThread::~StatusThread() {
+  {
+    const std::lock_guard lock(module_.mutex_);
+    module_.ending_ = true;
+  }
+  module_.ends_.notify_all();
+  thread_.join();
+}
+
+void Module::send_statuses() {
+  std::unique_lock lock(mutex_);
+  auto last = std::chrono::steady_clock::now();
+  while (!ends_.wait_until(lock, last + kStatusPeriod, [this] { return ending_; })) {
+    lock.unlock();
+    const auto now = std::chrono::steady_clock::now();
+    send_status(std::chrono::duration<double>(now - last).count());
+    last = now;
+    lock.lock();
+  }
+}
+
+void Module::spin_once() {
+  bus_.handle(std::chrono::milliseconds(0));
   const auto now = std::chrono::steady_clock::now();
   if (now - last_status_ < kStatusPeriod) return;
   send_status(std::chrono::duration<double>(now - last_status_).count());
@@ -132,7 +172,23 @@ void Module::check_channel(const std::string& channel) {
   if (!fault.empty()) throw config::UsageError(fault);
 }
 
+bool Module::count_received(const stamp_t& stamp) {
+  const std::lock_guard lock(mutex_);
+  return counter_.received(stamp.sensor, stamp.sequence);
+}
+
+void Module::count_published(const stamp_t& stamp) {
+  const std::lock_guard lock(mutex_);
+  counter_.published(stamp.utime, utime_now());
+}
+
+void Module::set_note(const std::string& note) {
+  const std::lock_guard lock(mutex_);
+  note_ = note;
+}
+
 void Module::guarded(const std::string& channel, const std::function<void()>& body) {
+  const Working working(is_working_);
   try {
     body();
   } catch (const MessageError&) {
@@ -143,6 +199,7 @@ void Module::guarded(const std::string& channel, const std::function<void()>& bo
 }
 
 void Module::report_problem(const std::string& text) {
+  const std::lock_guard lock(mutex_);
   counter_.failed(text);
   // A fault that repeats with every frame would bury the log; the status goes on telling it.
   if (text != last_logged_problem_) config::log(config::LogLevel::kError, text);
@@ -150,18 +207,21 @@ void Module::report_problem(const std::string& text) {
 }
 
 void Module::end_problem(const std::string& text) {
+  const std::lock_guard lock(mutex_);
   config::log(config::LogLevel::kInfo, "over: " + text);
   last_logged_problem_.clear();
 }
 
 void Module::on_malformed(const std::string& channel, const std::string& reason) {
   const std::string text = channel + ": message dropped: " + reason;
+  const std::lock_guard lock(mutex_);
   counter_.malformed(text);
   if (text != last_logged_problem_) config::log(config::LogLevel::kWarning, text);
   last_logged_problem_ = text;
 }
 
-void Module::send_status(double period_s) {
+module_status_t Module::make_status(double period_s) {
+  const std::lock_guard lock(mutex_);
   const StatusCounter::Period period = counter_.finish_period(period_s);
   module_status_t status{};
   status.utime = utime_now();
@@ -169,8 +229,8 @@ void Module::send_status(double period_s) {
   status.host = host_name();
   status.pid = static_cast<std::int32_t>(getpid());
   status.version = config::kVersion;
-  const bool idle = period.rate_in_hz == 0.0F && period.rate_out_hz == 0.0F;
-  status.state = period.failing ? "failing" : idle ? "waiting" : "running";
+  const bool idle = period.rate_in_hz == 0.0F && period.rate_out_hz == 0.0F && !is_working_;
+  status.state = period.failing ? "failing" : idle ? kWaiting : "running";
   status.rate_in_hz = period.rate_in_hz;
   status.rate_out_hz = period.rate_out_hz;
   status.latency_p50_ms = period.latency_p50_ms;
@@ -183,8 +243,13 @@ void Module::send_status(double period_s) {
   status.num_malformed = counter_.num_malformed();
   status.last_error = counter_.last_error();
   status.note = note_;
+  return status;
+}
+
+void Module::send_status(double period_s) {
+  const module_status_t status = make_status(period_s);
   publish(kStatusChannel, status);
-  if (!idle) config::log(config::LogLevel::kInfo, summary(status));
+  if (status.state != kWaiting) config::log(config::LogLevel::kInfo, summary(status));
 }
 
 }  // namespace limbcast::lcm_io

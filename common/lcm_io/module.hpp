@@ -1,10 +1,16 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <limbcast/module_status_t.hpp>
+#include <limbcast/stamp_t.hpp>
 #include <map>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "common/bounded_map.hpp"
@@ -46,7 +52,7 @@ class Module {
     check_channel(channel);
     const auto guarded_handler = [this, channel,
                                   handler = std::move(handler)](const Message& message) {
-      if (!counter_.received(message.stamp.sensor, message.stamp.sequence)) return;
+      if (!count_received(message.stamp)) return;
       guarded(channel, [&] { handler(message); });
     };
     bus_.subscribe<Message>(channel, Keep::kNewest, guarded_handler, &sensor_of);
@@ -67,7 +73,7 @@ class Module {
   std::int64_t publish_frame(const std::string& channel, Message message) {
     message.stamp.sequence = next_sequence_[channel].get(message.stamp.sensor)++;
     publish(channel, message);
-    counter_.published(message.stamp.utime, utime_now());
+    count_published(message.stamp);
     pace_.published(message.stamp.sensor, message.stamp.utime, std::chrono::steady_clock::now());
     return message.stamp.sequence;
   }
@@ -97,13 +103,13 @@ class Module {
   /// module may add steps, or take some back.
   void give_way(int num_stages_after);
 
-  /// Handles messages until a signal ends it.
+  /// Handles messages until a signal ends it. The status goes out also while a message takes long.
   void run();
   /// For sources: sends the status when it is due and handles what has come; returns at once.
-  void spin_once() { spin(std::chrono::milliseconds(0)); }
+  void spin_once();
 
   /// What a user wants to know besides, e.g. who told gravity; shown in the status.
-  void set_note(const std::string& note) { note_ = note; }
+  void set_note(const std::string& note);
   /// A problem that the module survives: logged when it is new, and shown in the status.
   void report_problem(const std::string& text);
   /// The problem of this text is over: logged, as it is when it comes again.
@@ -114,19 +120,38 @@ class Module {
   static std::string channel_fault(const std::string& channel);
   /// Throws config::UsageError where it takes none.
   static void check_channel(const std::string& channel);
+  bool count_received(const stamp_t& stamp);
+  void count_published(const stamp_t& stamp);
   void guarded(const std::string& channel, const std::function<void()>& body);
-  void spin(std::chrono::milliseconds timeout);
   void on_malformed(const std::string& channel, const std::string& reason);
+  /// Sends the status each second while it lives, whatever the handlers do.
+  class StatusThread {
+   public:
+    explicit StatusThread(Module& module);
+    ~StatusThread();
+    StatusThread(const StatusThread&) = delete;
+    StatusThread& operator=(const StatusThread&) = delete;
+
+   private:
+    Module& module_;
+    std::thread thread_;
+  };
+  void send_statuses();
   void send_status(double period_s);
+  module_status_t make_status(double period_s);
 
   std::string name_;
   Bus bus_;
-  StatusCounter counter_;
   Pace pace_;
-  std::string note_;
-  std::string last_logged_problem_;
   std::map<std::string, BoundedMap<std::int64_t>> next_sequence_;  ///< channel, sensor
   std::chrono::steady_clock::time_point last_status_;
+  std::atomic<bool> is_working_ = false;  ///< a handler is
+  std::mutex mutex_;                      ///< of what follows
+  std::condition_variable ends_;
+  bool ending_ = false;
+  StatusCounter counter_;
+  std::string note_;
+  std::string last_logged_problem_;
 };
 
 }  // namespace limbcast::lcm_io

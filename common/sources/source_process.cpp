@@ -9,6 +9,7 @@
 #include "common/camera/calibration_reader.hpp"
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"
+#include "common/input_error.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_loop.hpp"
 #include "common/units.hpp"
@@ -37,6 +38,12 @@ std::vector<std::string> files_read(const SourceProcessOptions& options) {
     }
   }
   return files;
+}
+
+/// A log that is not there would be taken for a source that needs a calibration.
+void refuse_missing_log(const std::string& source) {
+  if (fs::path(source).extension() == ".log" && !fs::exists(source))
+    throw InputError(source + ": no such log; check the name");
 }
 
 /// For the log at start: the source, and what its devices can do.
@@ -86,6 +93,7 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
     // A log carries the calibration with the images.
     if (key == std::string("calibration") && is_lcm_log(cameras.source)) continue;
     if (value->empty()) {
+      refuse_missing_log(cameras.source);
       throw config::UsageError(std::string("--") + key + " is missing; see " + program + " --help");
     }
   }

@@ -39,7 +39,7 @@ std::string advice_for(int error) {
       return "the USB bus is full: ask for motion JPEG, a smaller picture or rate (camera-format, "
              "camera-width, camera-rate), or plug one camera into another bus";
     default:
-      return "is the camera plugged in? See v4l2-ctl --list-devices";
+      return "is the camera plugged in? See v4l2-ctl --list-devices (package v4l-utils)";
   }
 }
 

@@ -84,7 +84,8 @@ Findings check_chain(const Traffic& traffic) {
                                       [&](const std::string& s) { return heard(traffic, s); });
   if (!has_source)
     findings.push_back({Level::kProblem, "modules", "no camera or laser scanner is heard",
-                        "systemctl start limbcast-stereo-camera@SENSOR"});
+                        "systemctl start limbcast-stereo-camera@SENSOR, or by hand "
+                        "limbcast-stereo-camera, limbcast-depth-camera or limbcast-laser-scanner"});
   return findings;
 }
 

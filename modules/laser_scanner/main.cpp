@@ -5,7 +5,9 @@
 
 #include "common/cloud/ground_plane.hpp"
 #include "common/formatted.hpp"
+#include "common/input_error.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/sources/log_playback.hpp"
 #include "common/sources/source_loop.hpp"
 #include "modules/laser_scanner/cloud_source.hpp"
 
@@ -109,6 +111,8 @@ void run(Options& options, const config::CommonOptions& common) {
   if (options.source.source.empty()) {
     throw config::UsageError("--source is missing; see limbcast-laser-scanner --help");
   }
+  if (is_lcm_log(options.source.source))
+    throw InputError(options.source.source + ": is an LCM log; play its clouds with lcm-logplayer");
   check_limits(options.source);
   options.process.source.source = options.source.source;  // a log must not be written over it
   options.process.source.loop = options.source.loop = options.process.source.loop;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <opencv2/core.hpp>
+#include <vector>
 
 #include "common/human_model/joints.hpp"
 #include "modules/segmenter/depth_picture.hpp"
@@ -19,24 +21,67 @@ namespace {
 // last figure whose mean over all cells is the log odds that a person is there.
 constexpr int kCells = 32, kCellSide_px = kDepthPictureSide_px / kCells;
 constexpr std::size_t kCellCount = std::size_t{kCells} * kCells;
-constexpr int kPersonFigure = 5 * kJointCount, kFigures = kPersonFigure + 1;
+enum Kind { kPresence, kOffsetU, kOffsetV, kBehind, kSight, kKinds };
+constexpr int kPersonFigure = kKinds * kJointCount, kFigures = kPersonFigure + 1;
 /// What a unit of the depths it tells is [m].
 constexpr float kDepthUnit_m = 0.25F;
+
+/// What all cells tell, row by row.
+using Figures = std::vector<float>;
+
+Figures figures_of(TfliteNetwork& network, const cv::Mat3f& picture) {
+  const auto* channels = picture.ptr<float>();
+  std::copy(channels, channels + picture.total() * picture.channels(), network.input());
+  network.run();
+  const float* output = network.output(0);
+  return {output, output + kCellCount * kFigures};
+}
+
+/// Adds what the mirrored picture's cells tell, of the joints as they are in the picture itself.
+void add_mirrored(const Figures& mirrored_figures, Figures& figures) {
+  for (int row = 0; row < kCells; ++row) {
+    for (int column = 0; column < kCells; ++column) {
+      const auto begin = [row](int of_column) {
+        return static_cast<std::size_t>(row * kCells + of_column) * kFigures;
+      };
+      float* sums = figures.data() + begin(column);
+      const float* seen = mirrored_figures.data() + begin(kCells - 1 - column);
+      for (int kind = 0; kind < kKinds; ++kind) {
+        const float sign = kind == kOffsetU ? -1.0F : 1.0F;
+        for (int joint = 0; joint < kJointCount; ++joint)
+          sums[kind * kJointCount + joint] += sign * seen[kind * kJointCount + mirrored(joint)];
+      }
+      sums[kPersonFigure] += seen[kPersonFigure];
+    }
+  }
+}
+
+/// The mean of what the network tells of a picture and of its mirror image: a tenth to a sixth less
+/// is told wrong than by one look (tests/accuracy/README.md).
+Figures figures_of_both(TfliteNetwork& network, const cv::Mat3f& picture) {
+  cv::Mat3f mirror;
+  constexpr int kLeftToRight = 1;
+  cv::flip(picture, mirror, kLeftToRight);
+  Figures figures = figures_of(network, picture);
+  add_mirrored(figures_of(network, mirror), figures);
+  for (float& figure : figures) figure *= 0.5F;
+  return figures;
+}
 
 /// What one cell tells of a joint.
 class Cell {
  public:
-  Cell(const float* output, std::size_t cell, int joint)
-      : figures_(output + cell * kFigures + joint) {}
+  Cell(const Figures& figures, std::size_t cell, int joint)
+      : figures_(figures.data() + cell * kFigures + joint) {}
 
-  float presence_odds() const { return figure(0); }
+  float presence_odds() const { return figure(kPresence); }
   /// From the cell's middle [cells].
-  Eigen::Vector2f offset() const { return {figure(1), figure(2)}; }
-  float behind_middle_m() const { return kDepthUnit_m * figure(3); }
-  float visibility() const { return probability(figure(4)); }
+  Eigen::Vector2f offset() const { return {figure(kOffsetU), figure(kOffsetV)}; }
+  float behind_middle_m() const { return kDepthUnit_m * figure(kBehind); }
+  float visibility() const { return probability(figure(kSight)); }
 
  private:
-  float figure(int kind) const { return figures_[kind * kJointCount]; }
+  float figure(Kind kind) const { return figures_[kind * kJointCount]; }
   const float* figures_;
 };
 
@@ -47,13 +92,13 @@ struct SeenInDepths {
 };
 
 /// As the cell tells that is surest of it.
-SeenInDepths find_joint(const float* output, int joint) {
+SeenInDepths find_joint(const Figures& figures, int joint) {
   std::size_t best = 0;
   for (std::size_t cell = 1; cell < kCellCount; ++cell) {
-    if (Cell(output, cell, joint).presence_odds() > Cell(output, best, joint).presence_odds())
+    if (Cell(figures, cell, joint).presence_odds() > Cell(figures, best, joint).presence_odds())
       best = cell;
   }
-  const Cell cell(output, best, joint);
+  const Cell cell(figures, best, joint);
   const std::size_t column = best % kCells, row = best / kCells;
   const Eigen::Vector2f middle_cell(static_cast<float>(column), static_cast<float>(row));
   constexpr float kHalf = 0.5F;
@@ -62,10 +107,10 @@ SeenInDepths find_joint(const float* output, int joint) {
   return {px, cell.behind_middle_m(), probability(cell.presence_odds()), cell.visibility()};
 }
 
-float person_score(const float* output) {
+float person_score(const Figures& figures) {
   float sum = 0.0F;
   for (std::size_t cell = 0; cell < kCellCount; ++cell)
-    sum += output[cell * kFigures + kPersonFigure];
+    sum += figures[cell * kFigures + kPersonFigure];
   return probability(sum / static_cast<float>(kCellCount));
 }
 
@@ -75,11 +120,11 @@ struct SeenPerson {
   std::array<SeenInDepths, kJointCount> joints;
 };
 
-SeenPerson read_output(const float* output) {
+SeenPerson read_figures(const Figures& figures) {
   SeenPerson seen;
-  seen.score = person_score(output);
+  seen.score = person_score(figures);
   for (int joint = 0; joint < kJointCount; ++joint)
-    seen.joints[static_cast<std::size_t>(joint)] = find_joint(output, joint);
+    seen.joints[static_cast<std::size_t>(joint)] = find_joint(figures, joint);
   return seen;
 }
 
@@ -103,11 +148,7 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
   const auto picture = draw_depths(view, head_m, down, params_.picture);
   if (!picture) return std::nullopt;
   const auto seen = networks_->with([&](TfliteNetwork& network) {
-    const auto* channels = picture->channels.ptr<float>();
-    std::copy(channels, channels + picture->channels.total() * picture->channels.channels(),
-              network.input());
-    network.run();
-    return read_output(network.output(0));
+    return read_figures(figures_of_both(network, picture->channels));
   });
   const Eigen::Matrix3f view_from_picture =
       view.frame_from_image.transpose() * picture->frame_from_picture;

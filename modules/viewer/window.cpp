@@ -13,6 +13,8 @@ namespace {
 const std::string kTitle = "limbcast", kSlider = "frame";
 /// How long the window waits for a key before it looks whether it was closed.
 constexpr int kPoll_ms = 20;
+/// The window at its start [px]: the sheet's shape, on a screen of any usual size.
+constexpr int kStartWidth_px = 1280, kStartHeight_px = 480;
 
 /// Beyond letters, the codes are those of X (keysymdef.h), which OpenCV hands through.
 const std::map<int, Command> kKeys = {
@@ -37,6 +39,7 @@ Window::Window(const Orbit& orbit) : control_(orbit) {
     throw config::UsageError(
         "there is no display for a window; write files with --png DIR or --video FILE");
   cv::namedWindow(kTitle, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
+  cv::resizeWindow(kTitle, kStartWidth_px, kStartHeight_px);
   cv::setMouseCallback(kTitle, &Window::on_mouse, this);
   wheel_ = std::make_unique<Wheel>([this](float notches) {
     control_.turn_wheel(notches);

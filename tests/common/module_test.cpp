@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <limbcast/module_status_t.hpp>
+#include <string>
 
+#include "tests/support/child_process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::lcm_io {
@@ -47,6 +50,30 @@ config::CommonOptions options_of_one_process() {
 
 TEST(Module, GoesOnWhenNobodyReadsItsLogAnyMore) {
   EXPECT_EXIT(lose_the_reader_of_the_log(), ExitedWithCode(kGoesOn), "");
+}
+
+/// Works on a message until a status has come: none would come if it waited for the message.
+[[noreturn]] void work_until_a_status_comes() {
+  constexpr std::chrono::milliseconds kLook{100};
+  constexpr int kMostLooks = 100;
+  config::CommonOptions options;
+  options.lcm_url = test::private_lcm_url();
+  Bus listener(options.lcm_url);
+  std::string state;
+  listener.subscribe<module_status_t>(kStatusChannel, Keep::kAll,
+                                      [&](const module_status_t& status) { state = status.state; });
+  Module module("test", options);
+  module.subscribe_all<module_status_t>("WORK", [&](const module_status_t&) {
+    for (int look = 0; look < kMostLooks && state.empty(); ++look) listener.handle(kLook);
+    request_stop();
+  });
+  listener.publish("WORK", module_status_t{});
+  module.run();
+  std::exit(state == "running" ? kGoesOn : kToldToEnd);
+}
+
+TEST(Module, TellsItsStatusWhileAMessageTakesLong) {
+  EXPECT_EXIT(work_until_a_status_comes(), ExitedWithCode(kGoesOn), "");
 }
 
 TEST(Module, TellsChannelsThatLcmDoesNotTake) {

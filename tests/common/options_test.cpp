@@ -5,6 +5,8 @@
 
 #include <limits>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/support/temporary_folder.hpp"
 
@@ -108,6 +110,24 @@ TEST_F(OptionsTest, RejectsUnknownOptionsChoicesAndArguments) {
   EXPECT_THAT(error_of({}), HasSubstr("IN.log is missing"));
 }
 
+TEST_F(OptionsTest, SaysHowASwitchIsSetWhereItsValueStandsAlone) {
+  EXPECT_EQ(error_of({"in.log", "--verbose", "false"}),
+            "command line: unexpected argument 'false'; write --key=false");
+}
+
+TEST(OptionalArguments, KeepTheirDefaultWhereNoneIsGiven) {
+  for (const bool given : {false, true}) {
+    std::vector<std::string> sets = {"usual"};
+    Parser parser("limbcast-test", "test");
+    parser.add_positional("[SET...]", sets, "sets");
+    std::vector<const char*> words = {"limbcast-test"};
+    if (given) words.insert(words.end(), {"a", "b"});
+    ASSERT_TRUE(parser.parse(static_cast<int>(words.size()), words.data()));
+    EXPECT_EQ(sets,
+              given ? (std::vector<std::string>{"a", "b"}) : std::vector<std::string>{"usual"});
+  }
+}
+
 TEST_F(OptionsTest, NamesTheFileOfAnUnknownKeyOrSection) {
   std::string file = config_file("[pose_fitter]\ncolour = blue\n");
   EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}), HasSubstr("robot.conf"));
@@ -142,6 +162,11 @@ TEST_F(OptionsTest, ReadsAFileWithAByteOrderMark) {
 TEST_F(OptionsTest, HelpShowsNoDefaultOfWhatIsLeftOut) {
   EXPECT_FALSE(parse({"--help"}));
   EXPECT_THAT(out_.str(), HasSubstr("left out: as it is [ms] (a number)\n"));
+}
+
+TEST_F(OptionsTest, HelpShowsHowASwitchIsSet) {
+  EXPECT_FALSE(parse({"--help"}));
+  EXPECT_THAT(out_.str(), HasSubstr("--verbose[=VALUE]\n"));
 }
 
 TEST_F(OptionsTest, HelpShowsUnitAndDefault) {

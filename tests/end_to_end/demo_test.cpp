@@ -25,8 +25,8 @@ class Demo : public ::testing::Test {
 };
 
 TEST_F(Demo, RefusesWrongArguments) {
-  const std::string usage = "; call it as modules/demo.sh [FOLDER_OR_LOG [CALIBRATION]]\n";
-  EXPECT_EQ(refusal_of("--help"), "demo: --help: there are no options" + usage);
+  const std::string usage = "; call it as modules/demo.sh [RECORDING [CALIBRATION]]\n";
+  EXPECT_EQ(refusal_of("--fast"), "demo: --fast: there are no options" + usage);
   EXPECT_EQ(refusal_of("a b c"), "demo: c: one argument too many" + usage);
 }
 
@@ -40,7 +40,19 @@ TEST_F(Demo, RefusesARecordingThatItCannotPlayBeforeItBuilds) {
   std::ofstream(folder_ + "/c.yml") << "of this folder";
   EXPECT_EQ(refusal_of("recording c.yml"),
             "demo: " + recording +
-                ": holds neither *_left.* and *_right.* nor *_color.* and *_depth.png images\n");
+                ": holds no *_left.* and *_right.* images, no *_color.* and *_depth.png images and "
+                "no scans\n");
+  std::ofstream(folder_ + "/clouds.log") << "POINT_CLOUD";
+  EXPECT_EQ(refusal_of("clouds.log"),
+            "demo: " + folder_ +
+                "/clouds.log: holds no images; a log of clouds goes through limbcast-replay\n");
+}
+
+TEST_F(Demo, ExplainsItself) {
+  const RunResult result = run({demo_, "--help"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.output.find("modules/demo.sh RECORDING"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("DEMO_OUTPUT"), std::string::npos) << result.output;
 }
 
 TEST_F(Demo, DeletesNothingThatNoDemoWrote) {

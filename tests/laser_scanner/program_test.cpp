@@ -96,6 +96,8 @@ TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   };
   EXPECT_THAT(error({}), HasSubstr("--source is missing"));
   EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
+  EXPECT_THAT(error({"--source", repository_file("logs/nobody.log")}),
+              HasSubstr("nobody.log: is an LCM log; play its clouds with lcm-logplayer"));
   write_floor(folder_ + "/a.bin");
   EXPECT_THAT(error({"--source", folder_, "--axes", "x,y"}), HasSubstr("'axes' is 'x,y'"));
   EXPECT_THAT(error({"--source", folder_, "--loop"}), HasSubstr("never end"));

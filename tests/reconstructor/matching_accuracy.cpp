@@ -1,12 +1,12 @@
 // Prints how well matchers do on people, against the truth of the rendered recordings:
 //   matching-accuracy [STEP]     every STEP-th frame (1: all)
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "common/config/options.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
 #include "tests/reconstructor/matching_figures.hpp"
 #include "tests/reconstructor/opencv_matcher.hpp"
@@ -54,14 +54,19 @@ struct Tally {
   int frames = 0;
 };
 
-void evaluate(const std::string& set, int step, const std::vector<Matcher>& all,
+struct Options {
+  std::string data = LIMBCAST_DATA_DIR;
+  int step = 1;
+};
+
+void evaluate(const std::string& set, const Options& options, const std::vector<Matcher>& all,
               std::vector<Tally>& tallies) {
-  const std::string folder = test::stereo_dev_folder() + "/" + set;
+  const std::string folder = options.data + "/stereo_dev/" + set;
   const StereoReconstructor reconstructor(test::read_calibration(folder), {});
   const double focal_baseline =
       reconstructor.rectifier().camera().fx * reconstructor.rectifier().baseline_m();
   const auto names = test::frame_names(folder);
-  for (std::size_t i = 0; i < names.size(); i += step) {
+  for (std::size_t i = 0; i < names.size(); i += options.step) {
     const auto frame = test::read_true_frame(folder, names[i], focal_baseline);
     const RectifiedPair pair = reconstructor.rectifier().rectify(frame.left, frame.right);
     for (std::size_t m = 0; m < all.size(); ++m) {
@@ -74,10 +79,7 @@ void evaluate(const std::string& set, int step, const std::vector<Matcher>& all,
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const int step = argc > 1 ? std::max(1, std::atoi(argv[1])) : 1;
+void print_table(const Options& options) {
   cv::setNumThreads(1);  // so that the times are those of one core
   const std::vector<Matcher> all = matchers();
   std::printf("%-20s %6s %6s %7s %7s %7s %7s %7s %7s %7s %7s\n", "", "valid%", "bad2%", "median",
@@ -85,7 +87,7 @@ int main(int argc, char** argv) {
   for (const std::vector<std::string>& sets :
        {std::vector<std::string>{"pointing", "general"}, {"multi"}, {"distorted"}, {"hd"}}) {
     std::vector<Tally> tallies(all.size());
-    for (const std::string& set : sets) evaluate(set, step, all, tallies);
+    for (const std::string& set : sets) evaluate(set, options, all, tallies);
     std::printf("%s%s\n", sets[0].c_str(), sets.size() > 1 ? ", general" : "");
     for (std::size_t m = 0; m < all.size(); ++m) {
       const double ms = 1e3 * tallies[m].cpu_seconds / tallies[m].frames;
@@ -93,5 +95,20 @@ int main(int argc, char** argv) {
       print_row(all[m].name + ", check", tallies[m].checking, ms);
     }
   }
-  return 0;
+}
+
+constexpr const char* kProgram = "matching-accuracy";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return config::run_program(kProgram, [&] {
+    Options options;
+    config::Section section("figures");
+    section.add("data", options.data, "folder of the data, which holds stereo_dev");
+    section.add("step", options.step, "frames", "look at every frame of so many", {1, 1000});
+    config::Parser parser(kProgram, "Prints how well people's pixels are matched, beside OpenCV.");
+    parser.add(section);
+    if (parser.parse(argc, argv)) print_table(options);
+  });
 }

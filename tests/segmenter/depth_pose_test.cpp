@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -34,6 +36,21 @@ Eigen::Vector3f head_before_middle() {
 cv::Vec3f middle_of(const RangeImage& view) {
   const auto picture = draw_depths(view, head_before_middle(), kDown, {});
   return picture.value().channels(kDepthPictureSide_px / 2, kDepthPictureSide_px / 2);
+}
+
+Eigen::Vector3f in_mirror(const Eigen::Vector3f& v) { return {-v.x(), v.y(), v.z()}; }
+
+RangeImage in_mirror(const RangeImage& view) {
+  RangeImage image = view;
+  const int width = view.camera.width;
+  image.camera.cx = width - 1 - view.camera.cx;
+  image.origin_u = view.full_width - width - view.origin_u;
+  for (std::size_t row = 0; row < view.depth_m.size(); row += static_cast<std::size_t>(width)) {
+    const auto begin = static_cast<std::ptrdiff_t>(row), end = begin + width;
+    std::reverse(image.depth_m.begin() + begin, image.depth_m.begin() + end);
+    std::reverse(image.labels.begin() + begin, image.labels.begin() + end);
+  }
+  return image;
 }
 
 TEST(DepthPicture, ShowsThePersonsOwnDepthsAgainstTheMiddle) {
@@ -111,6 +128,28 @@ TEST_F(DepthsOfTheDemo, ShowEachJointAndItsSideWithoutColors) {
       EXPECT_NEAR(joint.behind_hips_m, upright_m.z() - pelvis_m.z(), kNear_m)
           << kJointNames[index(joint.joint)];
     }
+  }
+}
+
+TEST_F(DepthsOfTheDemo, ShowTheSameInTheMirror) {
+  const RangeImage view = segment(colorless(frame_.cloud)).segments.at(0).range_image.value();
+  const Eigen::Vector3f head_m = person_[Joint::kHead].position_m;
+  const Eigen::Vector3f down = frame_.cloud.stamp.gravity.down;
+  const DepthPose network{DepthPoseParams{}};
+  const auto seen = network.look(view, head_m, down);
+  const auto mirrored_seen = network.look(in_mirror(view), in_mirror(head_m), in_mirror(down));
+  ASSERT_TRUE(seen && mirrored_seen);
+  // Nearest pixels of the view are taken: one may be another in the mirror.
+  constexpr float kOnePixel = 1.0F, kNear_m = 0.02F;
+  EXPECT_NEAR(seen->person_score, mirrored_seen->person_score, 0.01F);
+  for (int i = 0; i < kJointCount; ++i) {
+    const ImageJoint& joint = seen->joints.at(static_cast<std::size_t>(i));
+    const ImageJoint& other = mirrored_seen->joints.at(static_cast<std::size_t>(mirrored(i)));
+    EXPECT_NEAR(joint.px.x() + other.px.x(), static_cast<float>(view.full_width - 1), kOnePixel)
+        << kJointNames[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(joint.px.y(), other.px.y(), kOnePixel) << kJointNames[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(joint.behind_hips_m, other.behind_hips_m, kNear_m)
+        << kJointNames[static_cast<std::size_t>(i)];
   }
 }
 

@@ -5,12 +5,12 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "modules/segmenter/face_finder.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/support/data_sets.hpp"
 
 namespace {
 
@@ -62,20 +62,22 @@ void print(const char* who, const Table& table) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> sets(argv + 1, argv + argc);
-  if (sets.empty()) sets = {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/hd"};
-  const FaceFinder faces({});
-  Table tuned{}, checking{};
-  for (const std::string& set : sets) {
-    const FrameReader reader(std::filesystem::path(LIMBCAST_DATA_DIR) / set, DepthFrom::kTruth);
-    for (const std::string& path : reader.paths()) {
-      const LoadedFrame frame = reader.read(path);
-      for (const TruePerson& person : frame.persons)
-        count(frame.cloud, person, faces, person.for_checking() ? checking : tuned);
-    }
-  }
-  std::puts("| people | log odds up to 0 | up to 1.5 | up to 3 | over 3 |");
-  print("D4, D5", checking);
-  print("others", tuned);
-  return 0;
+  return test::print_figures(
+      "limbcast-face-figures", "Prints how sure the face finder is of who faces the sensor.",
+      {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/hd"}, argc, argv,
+      [](const test::DataSets& sets) {
+        const FaceFinder faces({});
+        Table tuned{}, checking{};
+        for (const std::string& set : sets.names) {
+          const FrameReader reader(sets.folder(set), DepthFrom::kTruth);
+          for (const std::string& path : reader.paths()) {
+            const LoadedFrame frame = reader.read(path);
+            for (const TruePerson& person : frame.persons)
+              count(frame.cloud, person, faces, person.for_checking() ? checking : tuned);
+          }
+        }
+        std::puts("| people | log odds up to 0 | up to 1.5 | up to 3 | over 3 |");
+        print("D4, D5", checking);
+        print("others", tuned);
+      });
 }

@@ -10,6 +10,7 @@
 #include "modules/segmenter/pose_network.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/support/data_sets.hpp"
 
 namespace {
 
@@ -81,24 +82,25 @@ void print(const std::vector<Row>& rows) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> sets(argv + 1, argv + argc);
-  if (sets.empty()) sets = {"stereo_dev/general", "stereo_dev/pointing"};
-  const PoseNetwork blaze_pose({});
-  const PoseNetwork move_net(kSecondPoseNetwork, PictureNetworkKind::kMoveNet);
-  std::vector<Row> blaze_pose_rows, move_net_rows;
-  for (const std::string& set : sets) {
-    const FrameReader reader(std::string(LIMBCAST_DATA_DIR) + "/" + set, DepthFrom::kTruth);
-    for (const std::string& path : reader.paths()) {
-      const LoadedFrame frame = reader.read(path);
-      for (const TruePerson& person : frame.persons) {
-        count(frame.cloud, person, blaze_pose, blaze_pose_rows);
-        count(frame.cloud, person, move_net, move_net_rows);
-      }
-    }
-  }
-  std::puts("BlazePose");
-  print(blaze_pose_rows);
-  std::puts("MoveNet, which tells no depths");
-  print(move_net_rows);
-  return 0;
+  return test::print_figures(
+      "limbcast-image-joint-figures", "Prints where the networks of poses see joints in colours.",
+      {"stereo_dev/general", "stereo_dev/pointing"}, argc, argv, [](const test::DataSets& sets) {
+        const PoseNetwork blaze_pose({});
+        const PoseNetwork move_net(kSecondPoseNetwork, PictureNetworkKind::kMoveNet);
+        std::vector<Row> blaze_pose_rows, move_net_rows;
+        for (const std::string& set : sets.names) {
+          const FrameReader reader(sets.folder(set), DepthFrom::kTruth);
+          for (const std::string& path : reader.paths()) {
+            const LoadedFrame frame = reader.read(path);
+            for (const TruePerson& person : frame.persons) {
+              count(frame.cloud, person, blaze_pose, blaze_pose_rows);
+              count(frame.cloud, person, move_net, move_net_rows);
+            }
+          }
+        }
+        std::puts("BlazePose");
+        print(blaze_pose_rows);
+        std::puts("MoveNet, which tells no depths");
+        print(move_net_rows);
+      });
 }

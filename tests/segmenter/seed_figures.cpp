@@ -13,6 +13,7 @@
 #include "modules/segmenter/scene.hpp"
 #include "modules/segmenter/skin_seeds.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/support/data_sets.hpp"
 
 namespace {
 
@@ -78,11 +79,11 @@ void print(const std::string& set, const Kind& kind, int frames) {
               static_cast<double>(kind.elsewhere) / std::max(1, frames));
 }
 
-void run_set(const std::string& set) {
+void run_set(const std::string& set, const std::string& folder) {
   static const SkinColor skin;
   static const HeadClassifier classifier;
   const Params params;
-  const FrameReader reader(std::string(LIMBCAST_DATA_DIR) + "/" + set, DepthFrom::kReconstructor);
+  const FrameReader reader(folder, DepthFrom::kReconstructor);
   Kind by_skin{"skin parts", {}, 0, 0}, by_template{"template", {}, 0, 0},
       by_classifier{"template, trained", {}, 0, 0};
   int frames = 0;
@@ -106,10 +107,12 @@ void run_set(const std::string& set) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> sets(argv + 1, argv + argc);
-  if (sets.empty())
-    sets = {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/multi",
-            "stereo_dev/nohuman", "rgbd_pointing",       "laser_dev"};
-  for (const std::string& set : sets) run_set(set);
-  return 0;
+  return test::print_figures("limbcast-seed-figures",
+                             "Prints which heads the seeds find, and what else.",
+                             {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/multi",
+                              "stereo_dev/nohuman", "rgbd_pointing", "laser_dev"},
+                             argc, argv, [](const test::DataSets& sets) {
+                               for (const std::string& set : sets.names)
+                                 run_set(set, sets.folder(set));
+                             });
 }

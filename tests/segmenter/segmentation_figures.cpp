@@ -10,16 +10,21 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/config/options.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/support/data_sets.hpp"
 
 namespace {
 
 using namespace limbcast;
 using namespace limbcast::segmenter;
+
+constexpr const char* kProgram = "limbcast-segmentation-figures";
 
 struct Arguments {
   DepthFrom depth_from = DepthFrom::kReconstructor;
@@ -27,7 +32,9 @@ struct Arguments {
   bool verbose = false;
   std::string draw;
   Params params;
-  std::vector<std::string> sets;
+  test::DataSets sets{{"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/multi",
+                       "stereo_dev/nohuman", "stereo_dev/hd", "stereo_dev/sequence",
+                       "rgbd_pointing", "rgbd_five_people", "laser_dev"}};
 };
 
 /// Sums over the people of one half of a set.
@@ -252,7 +259,7 @@ std::vector<Eigen::Vector3f> true_heads(const LoadedFrame& frame) {
 
 void run_set(const std::string& set, const Arguments& arguments) {
   const Segmenter segmenter(arguments.params);
-  const FrameReader reader(std::string(LIMBCAST_DATA_DIR) + "/" + set, arguments.depth_from);
+  const FrameReader reader(arguments.sets.folder(set), arguments.depth_from);
   SetSums sums;
   for (const std::string& path : reader.paths()) {
     const LoadedFrame frame = reader.read(path);
@@ -274,41 +281,37 @@ void run_set(const std::string& set, const Arguments& arguments) {
   std::fflush(stdout);
 }
 
-Arguments read_arguments(int argc, char** argv) {
+/// Nothing where only help was asked for.
+std::optional<Arguments> read_arguments(int argc, char** argv) {
   Arguments arguments;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--true-depth")
-      arguments.depth_from = DepthFrom::kTruth;
-    else if (word == "--paper")
-      arguments.params.growing = Growing::kPaper;
-    else if (word == "--kdtree")
-      arguments.params.search = SearchStructure::kKdTree;
-    else if (word == "--skin")
-      arguments.params.seeds = SeedSource::kSkin;
-    else if (word == "--shape")
-      arguments.params.seeds = SeedSource::kShape;
-    else if (word == "--true-heads")
-      arguments.true_heads = true;
-    else if (word == "--verbose")
-      arguments.verbose = true;
-    else if (word == "--draw" && i + 1 < argc)
-      arguments.draw = argv[++i];
-    else
-      arguments.sets.push_back(word);
-  }
-  if (arguments.sets.empty()) {
-    arguments.sets = {"stereo_dev/general", "stereo_dev/pointing", "stereo_dev/multi",
-                      "stereo_dev/nohuman", "stereo_dev/hd",       "stereo_dev/sequence",
-                      "rgbd_pointing",      "rgbd_five_people",    "laser_dev"};
-  }
+  bool true_depth = false, paper = false, kd_tree = false, skin = false, shape = false;
+  config::Section section("figures");
+  section.add("true-depth", true_depth, "true depths instead of matched ones");
+  section.add("paper", paper, "regions grow as in the paper");
+  section.add("kdtree", kd_tree, "neighbours are found in a k-d tree");
+  section.add("skin", skin, "seeds by skin colour alone");
+  section.add("shape", shape, "seeds by shape alone");
+  section.add("true-heads", arguments.true_heads, "true heads instead of seeds");
+  section.add("verbose", arguments.verbose, "a line a person");
+  section.add("draw", arguments.draw, "folder for pictures of the segments");
+  config::Parser parser(kProgram, "Prints how much of people their segments hold, and of others.");
+  arguments.sets.declare(section, parser);
+  parser.add(section);
+  if (!parser.parse(argc, argv)) return std::nullopt;
+  if (true_depth) arguments.depth_from = DepthFrom::kTruth;
+  if (paper) arguments.params.growing = Growing::kPaper;
+  if (kd_tree) arguments.params.search = SearchStructure::kKdTree;
+  if (skin) arguments.params.seeds = SeedSource::kSkin;
+  if (shape) arguments.params.seeds = SeedSource::kShape;
   return arguments;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Arguments arguments = read_arguments(argc, argv);
-  for (const std::string& set : arguments.sets) run_set(set, arguments);
-  return 0;
+  return config::run_program(kProgram, [&] {
+    const auto arguments = read_arguments(argc, argv);
+    if (!arguments) return;
+    for (const std::string& set : arguments->sets.names) run_set(set, *arguments);
+  });
 }

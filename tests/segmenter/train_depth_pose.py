@@ -32,7 +32,11 @@ PRESENCE, OFFSET_U, OFFSET_V, DEPTH, SIGHT = range(5)  # what a cell tells of ea
 PERSON = JOINTS * 5  # the last figure of a cell: its mean over all cells is the log odds that a person is there
 MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
 
-EPOCHS, BATCH, RATE = 24, 32, 2e-3
+CYCLES = ((24, 2e-3), (8, 1e-3))  # epochs, and the highest rate, which falls to nothing in each
+BATCH = 32
+
+
+CHANNELS, BLOCKS = (24, 48, 96, 160), (0, 1, 2, 2)  # of the four halvings
 
 
 class Stage(nn.Module):
@@ -71,9 +75,10 @@ class Joined(nn.Module):
 class DepthPose(nn.Module):
     """Four halvings of the picture and two steps back (a feature pyramid: Lin et al., CVPR 2017)."""
 
-    def __init__(self, channels=(24, 48, 96, 160)):
+    def __init__(self):
         super().__init__()
-        self.stages = nn.ModuleList(Stage(i, o, int(k > 0)) for k, (i, o) in enumerate(zip((3, *channels), channels)))
+        channels = CHANNELS
+        self.stages = nn.ModuleList(map(Stage, (3, *channels), channels, BLOCKS))
         self.joined = nn.ModuleList([Joined(channels[3], channels[2]), Joined(channels[2], channels[1])])
         self.out = nn.Conv2d(channels[1], JOINTS * 5 + 1, 1)
         with torch.no_grad():
@@ -183,12 +188,12 @@ def lose_some_edges(x, random):
 
 
 def smear_some(x, random):
-    """As depth cameras do that smooth and fill: depths averaged, silhouettes one or two pixels wider."""
-    some = torch.from_numpy(random.random(len(x)) < 0.15)
+    """As depth cameras do that smooth and fill: depths averaged, silhouettes up to four pixels wider."""
+    some = torch.from_numpy(random.random(len(x)) < 0.2)
     if not some.any():
         return
     own, depth, other = x[some, :1], x[some, 1:2], x[some, 2:]
-    for _ in range(int(random.integers(1, 3))):
+    for _ in range(int(random.integers(1, 5))):
         around = F.avg_pool2d(own, 3, 1, 1)
         mean = F.avg_pool2d(depth * own, 3, 1, 1) / around.clamp(min=1e-6)
         depth = torch.where(own > 0, 0.5 * (depth + mean), torch.where(around > 0, mean, torch.zeros_like(depth)))
@@ -263,6 +268,14 @@ def marks_of(output):
     return (u + 0.5) * CELL - 0.5, (v + 0.5) * CELL - 0.5, at_cell(depth) * DEPTH_UNIT_M
 
 
+def seen_in(network, x):
+    """The mean of what the network tells of pictures and of their mirror images, as depth_pose.cpp takes it."""
+    mirror = network(x.flip(3)).flip(3)
+    figures = [of_joints[:, MIRRORED] for of_joints in figures_of(mirror)]
+    figures[OFFSET_U] = -figures[OFFSET_U]
+    return 0.5 * (network(x) + torch.cat([*figures, mirror[:, PERSON:]], 1))
+
+
 def check(network, path):
     """Prints the share of visible limbs' joints within 10 cm across the ray, whose sides are exchanged, and how many
     people and things are taken for people."""
@@ -271,7 +284,7 @@ def check(network, path):
     outputs = []
     with torch.no_grad():
         for start in range(0, len(records), BATCH):
-            outputs.append(network(tensors_of(records[start:start + BATCH])[0]))
+            outputs.append(seen_in(network, tensors_of(records[start:start + BATCH])[0]))
     network.train()
     u, v, behind_m = marks_of(torch.cat(outputs))
     taken = (person_odds(torch.cat(outputs)) > 0).numpy()
@@ -301,16 +314,12 @@ def pictures_of_epoch(is_person, random):
     return random.permutation(np.concatenate([np.flatnonzero(is_person), things[: len(things) // 2]]))
 
 
-def train(records, checks):
-    torch.manual_seed(1)
-    torch.set_num_threads(os.cpu_count())
-    random = np.random.default_rng(1)
-    network = DepthPose().to(memory_format=torch.channels_last)
-    optimizer = torch.optim.AdamW(network.parameters(), RATE, weight_decay=1e-4)
-    steps = EPOCHS * (len(pictures_of_epoch(records["is_person"], random)) // BATCH)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=steps + 1, pct_start=0.15)
+def train_cycle(network, records, checks, epochs, rate, random):
+    optimizer = torch.optim.AdamW(network.parameters(), rate, weight_decay=1e-4)
+    steps = epochs * (len(pictures_of_epoch(records["is_person"], random)) // BATCH)
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps + 1, pct_start=0.15)
     started = time.time()
-    for epoch in range(EPOCHS):
+    for epoch in range(epochs):
         order, losses = pictures_of_epoch(records["is_person"], random), []
         for start in range(0, len(order) - BATCH + 1, BATCH):
             x, joints, is_person = tensors_of(records[np.sort(order[start:start + BATCH])])
@@ -321,10 +330,19 @@ def train(records, checks):
             optimizer.step()
             schedule.step()
             losses.append(loss.item())
-        print(f"epoch {epoch + 1} of {EPOCHS}: loss {np.mean(losses):.3f}, {time.time() - started:.0f} s", flush=True)
-        if (epoch + 1) % 3 == 0 or epoch + 1 == EPOCHS:
+        print(f"epoch {epoch + 1} of {epochs}: loss {np.mean(losses):.3f}, {time.time() - started:.0f} s", flush=True)
+        if (epoch + 1) % 3 == 0 or epoch + 1 == epochs:
             for path in checks:
                 check(network, path)
+
+
+def train(records, checks):
+    torch.manual_seed(1)
+    torch.set_num_threads(os.cpu_count())
+    random = np.random.default_rng(1)
+    network = DepthPose().to(memory_format=torch.channels_last)
+    for epochs, rate in CYCLES:
+        train_cycle(network, records, checks, epochs, rate, random)
     return network.eval()
 
 

@@ -4,10 +4,10 @@
 # confidences of the refined fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch and
 # python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   12450 simulated frames, 8 GB, about three quarters of an hour on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   14600 simulated frames, 10 GB, about an hour on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
-# Run it after segments or range images changed. Training takes an hour on two cores without AMX.
+# Run it after segments or range images changed. Training takes an hour and a half on two cores without AMX.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
@@ -50,6 +50,10 @@ simulate n_stereo_multi2 multi stereo 350 20051 --child-share 0.15
 simulate n_depth_multi2 multi depth 300 20052 "${gray[@]}" --child-share 0.15
 simulate n_dense_multi2 multi laser 250 20053 --child-share 0.15 "${dense[@]}"
 simulate n_laser_multi2 multi laser 200 20054 --child-share 0.15
+# More before stereo pairs, whose depths are the roughest.
+simulate n_stereo_pointing4 pointing stereo 900 20061 --child-share 0.15 "${far[@]}"
+simulate n_stereo_multi4 multi stereo 450 20062 --child-share 0.15
+simulate n_stereo_general4 general stereo 800 20063 "${children[@]}" "${far[@]}"
 # Rooms and streets: what may be taken for people.
 simulate n_depth_nohuman nohuman depth 400 20041 "${gray[@]}"
 simulate n_depth_nohuman2 nohuman depth 200 20042 "${gray[@]}" "${low[@]}"

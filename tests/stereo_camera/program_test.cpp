@@ -83,6 +83,8 @@ TEST_F(StereoCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
               HasSubstr("must be a unit vector"));
   EXPECT_THAT(error({"--source", folder_, "--calibration", folder_ + "/none.yml"}),
               HasSubstr("none.yml: cannot be read"));
+  EXPECT_THAT(error({"--source", "none.log", "--calibration", ""}),
+              HasSubstr("none.log: no such log; check the name"));
   EXPECT_THAT(
       error({"--source", folder_, "--calibration", write_stereo_calibration(folder_, -0.12)}),
       HasSubstr("swap the left and right cameras"));

@@ -46,8 +46,8 @@ struct RefinedParams {
   double image_limit_sigmas = 3.5;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
-  std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.5};
-  double image_depth_sigma_m = 0.05;
+  std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.75};
+  double image_depth_sigma_m = 0.04;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;
