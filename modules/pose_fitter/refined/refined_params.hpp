@@ -43,11 +43,11 @@ struct RefinedParams {
   /// limit of the robust loss. Tuned.
   std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
   std::array<double, 3> image_weight = {1.0, 2.0, 2.0};
-  double image_limit_sigmas = 3.5;
+  double image_limit_sigmas = 4.0;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
   std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.75};
-  double image_depth_sigma_m = 0.04;
+  double image_depth_sigma_m = 0.05;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;
