@@ -77,9 +77,13 @@ TEST_F(ChainTest, TurnsRecordedPairsIntoPosesThatLcmLoggerRecords) {
   ASSERT_TRUE(wait_until_up());
   const std::string log = folder_ + "/run.log";
   ChildProcess logger({"lcm-logger", "--quiet", log, "--lcm-url=" + url_}, folder_ + "/logger.txt");
+  ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(log); }));
   auto camera = start_camera({"--rate", "2"});
   EXPECT_EQ(camera->wait(), 0) << camera->output();
-  ASSERT_TRUE(wait_for([this] { return !poses_.empty(); }));
+  EXPECT_TRUE(wait_for([this] {
+    return std::any_of(poses_.begin(), poses_.end(),
+                       [](const body_poses_t& poses) { return poses.num_persons > 0; });
+  })) << "nobody was found";
   logger.signal(SIGINT);
   logger.wait();
 
@@ -89,10 +93,6 @@ TEST_F(ChainTest, TurnsRecordedPairsIntoPosesThatLcmLoggerRecords) {
   for (const char* channel : {"STEREO_IMAGES", "STEREO_CALIBRATION", "POINT_CLOUD", "SEGMENTS",
                               "BODY_POSES", "MODULE_STATUS", "GROUND_TRUTH"})
     EXPECT_TRUE(channels.count(channel)) << channel;
-  const bool somebody = std::any_of(poses_.begin(), poses_.end(), [](const body_poses_t& poses) {
-    return poses.num_persons > 0;
-  });
-  EXPECT_TRUE(somebody);
 }
 
 TEST_F(ChainTest, GoesOnWhenAModuleIsKilledAndStartedAgain) {
