@@ -9,9 +9,12 @@ namespace {
 
 constexpr double kFocalBaseline_px_m = 30.0;
 
+/// Of a right camera that turned the offset of disparities grows towards the image's sides.
+enum class Offset { kEven, kOfATurn };
+
 /// The floor that a camera sees which stands 1.2 m over it and looks 0.2 rad down, with all
 /// disparities too large by `offset_px`, and a wall 6 m away.
-Cloud floor_seen_with(double offset_px) {
+Cloud floor_seen_with(double offset_px, Offset kind = Offset::kEven) {
   Cloud cloud;
   const PinholeCamera camera{160, 120, 130.0, 130.0, 79.5, 59.5};
   cloud.camera = camera;
@@ -23,7 +26,8 @@ Cloud floor_seen_with(double offset_px) {
     for (int u = 0; u < cloud.width; ++u) {
       const Eigen::Vector3d ray = camera.back_project(u, v, 1.0F).cast<double>();
       const double nearness = std::max(1.0 / wall_m, down.dot(ray) / height_m);
-      const double disparity_px = kFocalBaseline_px_m * nearness + offset_px;
+      const double grown = kind == Offset::kEven ? 1.0 : 1.0 + ray.x() * ray.x();
+      const double disparity_px = kFocalBaseline_px_m * nearness + offset_px * grown;
       cloud.points_m.push_back(
           camera.back_project(u, v, static_cast<float>(kFocalBaseline_px_m / disparity_px)));
     }
@@ -40,6 +44,15 @@ TEST(GroundLean, TellsByHowMuchAllDisparitiesAreOff) {
     EXPECT_NEAR(ground->offset_px, offset_px, 0.06);
     // 1.2 m / 30 px m, of a gravity that is not quite square to the image's axis.
     EXPECT_NEAR(ground->lean_deg, offset_px * 0.04 * std::cos(0.2) * 180.0 / M_PI, 0.15);
+  }
+}
+
+TEST(GroundLean, TellsATurnThatBendsTheGround) {
+  for (const double offset_px : {-1.5, 1.5, 3.0}) {
+    const auto ground =
+        ground_lean(floor_seen_with(offset_px, Offset::kOfATurn), kFocalBaseline_px_m);
+    ASSERT_TRUE(ground) << offset_px;
+    EXPECT_NEAR(ground->offset_px, offset_px, 0.15);
   }
 }
 
