@@ -2,9 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "common/formatted.hpp"
 #include "common/units.hpp"
@@ -64,11 +62,7 @@ double reach(const PinholeCamera& camera) {
 
 }  // namespace
 
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
+std::string text_of(double value) { return formatted("%g", value); }
 
 PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, int width, int height,
                               const Eigen::Matrix3d& K) {
@@ -85,7 +79,7 @@ PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, in
   if (K(0, 2) < 0.0 || K(0, 2) >= width || K(1, 2) < 0.0 || K(1, 2) >= height) {
     yaml.fail(key,
               "has its principal point (" + text_of(K(0, 2)) + ", " + text_of(K(1, 2)) +
-                  ") outside the image of " + std::to_string(width) + "x" + std::to_string(height),
+                  ") outside the image of " + size_text(width, height),
               "give the calibration of this image size");
   }
   return {width, height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};

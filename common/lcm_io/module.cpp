@@ -18,7 +18,7 @@ namespace limbcast::lcm_io {
 namespace {
 
 constexpr std::chrono::milliseconds kStatusPeriod{1000};
-/// How long the module may take to see a signal or that the status is due.
+/// How long the module may take to see a signal.
 constexpr std::chrono::milliseconds kWait{50};
 
 constexpr const char* kWaiting = "waiting";
@@ -98,9 +98,7 @@ bool stop_requested() { return g_stop_requested != 0; }
 void request_stop() { g_stop_requested = 1; }
 
 Module::Module(const std::string& name, const config::CommonOptions& options)
-    : name_(name),
-      bus_(url_of_network(name, options)),
-      last_status_(std::chrono::steady_clock::now()) {
+    : name_(name), bus_(url_of_network(name, options)) {
   keep_freed_memory();
   install_signal_handlers();
   // Whoever read the log may leave; the poses go on.
@@ -110,6 +108,16 @@ Module::Module(const std::string& name, const config::CommonOptions& options)
   });
   config::log(config::LogLevel::kInfo,
               std::string("version ") + config::kVersion + " on " + effective_url(options.lcm_url));
+  statuses_ = std::thread([this] { send_statuses(); });
+}
+
+Module::~Module() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  ends_.notify_all();
+  statuses_.join();
 }
 
 void Module::give_way(int num_stages_after) {
@@ -121,23 +129,8 @@ void Module::give_way(int num_stages_after) {
 }
 
 void Module::run() {
-  {
-    const StatusThread statuses(*this);
-    while (!stop_requested()) bus_.handle(kWait);
-  }
+  while (!stop_requested()) bus_.handle(kWait);
   config::log(config::LogLevel::kInfo, "ends");
-}
-
-Module::StatusThread::StatusThread(Module& module)
-    : module_(module), thread_([&module] { module.send_statuses(); }) {}
-
-Module::StatusThread::~StatusThread() {
-  {
-    const std::lock_guard lock(module_.mutex_);
-    module_.ending_ = true;
-  }
-  module_.ends_.notify_all();
-  thread_.join();
 }
 
 void Module::send_statuses() {
@@ -150,14 +143,6 @@ void Module::send_statuses() {
     last = now;
     lock.lock();
   }
-}
-
-void Module::spin_once() {
-  bus_.handle(std::chrono::milliseconds(0));
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_status_ < kStatusPeriod) return;
-  send_status(std::chrono::duration<double>(now - last_status_).count());
-  last_status_ = now;
 }
 
 std::string Module::channel_fault(const std::string& channel) {

@@ -33,7 +33,8 @@ bool stop_requested();
 /// Ends Module::run as a signal does.
 void request_stop();
 
-/// A process of the chain: bus, log, status once a second, a clean end on signals.
+/// A process of the chain: bus, log, a clean end on signals, and the status once a second from a
+/// thread of its own, so that it goes out also while a message takes long.
 ///
 ///     Module module("segmenter", parser.common());
 ///     module.subscribe<point_cloud_t>(options.input, [&](const point_cloud_t& message) { ... });
@@ -43,6 +44,9 @@ class Module {
   /// `name` as in the configuration file, e.g. "segmenter".
   /// Returns when the network is there.
   Module(const std::string& name, const config::CommonOptions& options);
+  ~Module();
+  Module(const Module&) = delete;
+  Module& operator=(const Module&) = delete;
 
   /// Frames (messages that begin with a stamp): of each sensor the newest only, so none that others
   /// overtook on the way; counted, and gaps in their sequence too. What the handler throws is
@@ -103,10 +107,10 @@ class Module {
   /// module may add steps, or take some back.
   void give_way(int num_stages_after);
 
-  /// Handles messages until a signal ends it. The status goes out also while a message takes long.
+  /// Handles messages until a signal ends it.
   void run();
-  /// For sources: sends the status when it is due and handles what has come; returns at once.
-  void spin_once();
+  /// For sources: handles what has come and returns at once.
+  void spin_once() { bus_.handle(std::chrono::milliseconds(0)); }
 
   /// What a user wants to know besides, e.g. who told gravity; shown in the status.
   void set_note(const std::string& note);
@@ -124,18 +128,7 @@ class Module {
   void count_published(const stamp_t& stamp);
   void guarded(const std::string& channel, const std::function<void()>& body);
   void on_malformed(const std::string& channel, const std::string& reason);
-  /// Sends the status each second while it lives, whatever the handlers do.
-  class StatusThread {
-   public:
-    explicit StatusThread(Module& module);
-    ~StatusThread();
-    StatusThread(const StatusThread&) = delete;
-    StatusThread& operator=(const StatusThread&) = delete;
-
-   private:
-    Module& module_;
-    std::thread thread_;
-  };
+  /// Until the module ends.
   void send_statuses();
   void send_status(double period_s);
   module_status_t make_status(double period_s);
@@ -144,14 +137,14 @@ class Module {
   Bus bus_;
   Pace pace_;
   std::map<std::string, BoundedMap<std::int64_t>> next_sequence_;  ///< channel, sensor
-  std::chrono::steady_clock::time_point last_status_;
-  std::atomic<bool> is_working_ = false;  ///< a handler is
-  std::mutex mutex_;                      ///< of what follows
+  std::atomic<bool> is_working_ = false;                           ///< a handler is
+  std::mutex mutex_;                                               ///< of what follows
   std::condition_variable ends_;
   bool ending_ = false;
   StatusCounter counter_;
   std::string note_;
   std::string last_logged_problem_;
+  std::thread statuses_;
 };
 
 }  // namespace limbcast::lcm_io

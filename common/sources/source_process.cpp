@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How long the process may take to see a signal or that the status is due.
+/// How long the process may take to see a signal.
 constexpr std::chrono::milliseconds kTick{20};
 
 /// Files that are read. A folder may hold logs besides, which are not.

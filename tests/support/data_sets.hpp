@@ -10,7 +10,7 @@
 
 namespace limbcast::test {
 
-/// What a program that prints figures of the data (DESIGN.md, "Data") looks at.
+/// What a program that prints figures of the data (README.md, "Accuracy") looks at.
 struct DataSets {
   std::vector<std::string> names;  ///< as "stereo_dev/pointing"
   std::string data = LIMBCAST_DATA_DIR;
