@@ -47,18 +47,30 @@ class ArmOwner {
     }
   }
 
-  std::int16_t nearest_person(const std::vector<std::uint32_t>& points) const {
-    std::int16_t person = kNobody;
-    float nearest_m = params_.max_from_person_m;
+  /// How far each person's nearest point is from the surface [m], up to a limit.
+  std::vector<float> distances_m(const std::vector<std::uint32_t>& points, float limit_m) const {
+    std::vector<float> nearest_m(people_.heads.size(), limit_m);
     const std::size_t step = std::max<std::size_t>(1, points.size() / kPointsCompared);
     for (std::size_t k = 0; k < points.size(); k += step) {
-      visit_near(points[k], nearest_m, [&](std::uint32_t n, float distance2_m2) {
-        if (people_.labels[n] < 0 || distance2_m2 >= nearest_m * nearest_m) return;
-        nearest_m = std::sqrt(distance2_m2);
-        person = people_.labels[n];
+      visit_near(points[k], limit_m, [&](std::uint32_t n, float distance2_m2) {
+        if (people_.labels[n] < 0) return;
+        float& known_m = nearest_m[static_cast<std::size_t>(people_.labels[n])];
+        known_m = std::min(known_m, std::sqrt(distance2_m2));
       });
     }
-    return person;
+    return nearest_m;
+  }
+
+  std::int16_t nearest_person(const std::vector<std::uint32_t>& points) const {
+    const float limit_m = std::max(params_.max_from_person_m, params_.max_from_rival_m);
+    std::vector<float> nearest_m = distances_m(points, limit_m);
+    const auto person = std::min_element(nearest_m.begin(), nearest_m.end());
+    if (*person >= params_.max_from_person_m) return kNobody;
+    *person = limit_m;
+    const float rival_m = *std::min_element(nearest_m.begin(), nearest_m.end());
+    return rival_m < params_.max_from_rival_m
+               ? kNobody
+               : static_cast<std::int16_t>(person - nearest_m.begin());
   }
 
   bool arm_reaches(const HeadCandidate& head, const std::vector<std::uint32_t>& points) const {
@@ -69,17 +81,22 @@ class ArmOwner {
     });
   }
 
-  /// Whether nothing else of nobody's is near, as the rest of a piece of furniture would be.
+  /// Whether nothing else of nobody's is near that is larger than a stray return, as the rest of a
+  /// piece of furniture would be.
   bool stands_clear(const std::vector<std::uint32_t>& points) const {
     const std::int32_t own = surfaces_.of_point[points.front()];
     bool clear = true;
     for (std::size_t k = 0; clear && k < points.size(); ++k) {
       visit_near(points[k], params_.min_gap_m, [&](std::uint32_t n, float) {
         const std::int32_t other = surfaces_.of_point[n];
-        if (other >= 0 && other != own) clear = false;
+        if (other >= 0 && other != own && area_m2(other) >= params_.min_other_m2) clear = false;
       });
     }
     return clear;
+  }
+
+  float area_m2(std::int32_t surface) const {
+    return surfaces_.all[static_cast<std::size_t>(surface)].area_m2;
   }
 
   const Lattice& lattice_;

@@ -146,8 +146,9 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
   if (scene.cloud.organized())
     add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, people,
                         image_.body_opinion(scene, people));
-  else
-    add_floating_arms(scene.lattice, params_.floating_arms, people);
+  add_floating_arms(
+      scene.lattice,
+      has_image(scene.cloud) ? params_.floating_arms_beside_image : params_.floating_arms, people);
   for (std::size_t k = 0; k < people.heads.size(); ++k)
     result.segments.push_back(make_segment(people.heads[k], frame, people.person_odds[k]));
   for (const RejectedHead& rejected : people.rejected) {

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "common/cloud/ground_plane.hpp"
+#include "modules/simulate/simulator.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 
 namespace limbcast::segmenter {
@@ -49,6 +52,60 @@ TEST_P(RecordedPerson, IsCutOutFromTheHeadDown) {
 INSTANTIATE_TEST_SUITE_P(PointingAtTheCamera, RecordedPerson,
                          ::testing::Values("pointing60_0004", "pointing60_0018", "pointing60_0024",
                                            "pointing60_0027"));
+
+/// What a depth camera without colours sees of somebody whose arms are raised to the sides.
+class PersonBeforeADepthCamera : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  void SetUp() override {
+    simulate::SimulatorParams params;
+    params.sensor = simulate::SensorKind::kDepth;
+    params.color = false;
+    params.scenario.posture = "T";
+    params.scenario.occluder_share = params.scenario.cut_share = 0.0;
+    params.scenario.body.child_share = 0.0;
+    params.scenario.min_distance_m = 2.4;
+    params.scenario.max_distance_m = 3.6;
+    const simulate::SimulatedFrame frame = simulate::simulate_frame(params, GetParam(), 0);
+    cloud_.camera = params.camera;
+    cloud_.width = params.camera.width;
+    cloud_.height = params.camera.height;
+    for (int v = 0; v < cloud_.height; ++v) {
+      for (int u = 0; u < cloud_.width; ++u)
+        cloud_.points_m.push_back(params.camera.back_project(
+            static_cast<float>(u), static_cast<float>(v), frame.sensed_depth_m.at<float>(v, u)));
+    }
+    cloud_.stamp.gravity = {frame.told_down.cast<float>(), GravitySource::kRecording, std::nullopt};
+    complete_gravity(cloud_);
+    const auto& joints_m = frame.scenario.persons.at(0).skeleton.joints;
+    elbow_m_ = joints_m[index(Joint::kElbowLeft)].cast<float>();
+    wrist_m_ = joints_m[index(Joint::kWristLeft)].cast<float>();
+  }
+  /// Nothing is measured around the elbow.
+  void part_forearm_from_body(float gap_m) {
+    for (Eigen::Vector3f& point_m : cloud_.points_m) {
+      if ((point_m - elbow_m_).norm() < gap_m) point_m.setZero();
+    }
+  }
+  std::ptrdiff_t count_hand_points(const std::vector<Eigen::Vector3f>& points_m) const {
+    return std::count_if(points_m.begin(), points_m.end(), [&](const Eigen::Vector3f& point_m) {
+      return (point_m - wrist_m_).norm() < 0.08F;
+    });
+  }
+
+  Cloud cloud_;
+  Eigen::Vector3f elbow_m_, wrist_m_;
+};
+
+TEST_P(PersonBeforeADepthCamera, KeepsAForearmThatHangsInTheAir) {
+  part_forearm_from_body(0.12F);
+  const std::ptrdiff_t seen = count_hand_points(cloud_.points_m);
+  ASSERT_GT(seen, 0);
+  const Segments found = segment(cloud_);
+  ASSERT_TRUE(found.segments.at(0).valid());
+  EXPECT_GT(count_hand_points(found.segments[0].points_m), seen * 9 / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Simulated, PersonBeforeADepthCamera, ::testing::Values(1, 3, 6));
 
 }  // namespace
 }  // namespace limbcast::segmenter
