@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "tests/pose_fitter/refined_body.hpp"
@@ -28,6 +29,29 @@ TEST(ObservedPoints, OfARangeFinderWeighMoreSinceTheirErrorsAreTheirOwn) {
   const auto ratio = static_cast<float>(params.scan_point_weight / params.point_weight);
   // Smoothed depths move a point's share of the area by less than a hundredth.
   EXPECT_NEAR(of_scanner / of_camera, ratio, 0.01F * ratio);
+}
+
+/// How much the left wrist counts that DepthPose sees so surely.
+Real counted_visibility_of_wrist(float visibility, bool has_colors) {
+  const BodyState body = testing::standing_body(2.5, 0.0);
+  Segment segment = testing::seen(body);
+  if (has_colors) segment = testing::colored(std::move(segment));
+  segment.image_poses = testing::in_depths(body);
+  segment.image_poses.back().joints.at(kWrist).visibility = visibility;
+  const auto observation = observe(segment, testing::stamp(), RefinedParams{});
+  return observation.value().looks.at(0).joints.at(kWrist).visibility;
+}
+
+TEST(JointsSeenInDepths, CountWhereTheyAreHiddenToo) {
+  const Real least = RefinedParams{}.least_depth_pose_visibility;
+  ASSERT_GT(least, 0.0);
+  for (const bool has_colors : {false, true})
+    EXPECT_EQ(counted_visibility_of_wrist(0.0F, has_colors), least);
+}
+
+TEST(JointsSeenInDepths, CountMoreWhereNoColorsTellThemToo) {
+  EXPECT_NEAR(counted_visibility_of_wrist(0.64F, true), 0.64, 1e-6);
+  EXPECT_NEAR(counted_visibility_of_wrist(0.64F, false), 0.8, 1e-6);
 }
 
 }  // namespace

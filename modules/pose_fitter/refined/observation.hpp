@@ -26,7 +26,7 @@ struct PointColumns {
 /// A joint as the image shows it, in the range image's frame.
 struct SeenJoint {
   Vec3 ray = Vec3::UnitZ();  ///< unit vector from the camera towards it
-  Real visibility = 0.0;     ///< 0 to 1; 0: not told
+  Real visibility = 0.0;     ///< 0 to 1, as it counts in the fit; 0: not told
   Real behind_hips_m = 0.0;  ///< how much farther away than the hips' middle; rough
 };
 
