@@ -182,9 +182,9 @@ struct LostArmParams {
   float max_seeds_apart_m = 0.7F, max_head_error_m = 0.2F;
 };
 
-/// Arms that growing did not reach (floating_arms.hpp). Of 141 such surfaces beside simulated people
-/// before scanners 120 were parts of them, of 16 before depth cameras without colours 13, of 59
-/// before stereo pairs 40.
+/// Arms that growing did not reach (floating_arms.hpp). Of 141 such surfaces beside simulated
+/// people before scanners 120 were parts of them, of 16 before depth cameras without colours 13, of
+/// 59 before stereo pairs 40.
 struct FloatingArmParams {
   /// Surfaces of nobody part where growing might go on: an arm from the wall.
   SurfaceParams surface{0.05F, 0.006F};
