@@ -123,7 +123,8 @@ ImageEvidence evidence_of(const BodyState& body, const ImageLook& look,
   evidence.sides_agreement = std::clamp(gap / kClearSidesGap, -1.0, 1.0);
   for (int joint = 0; joint < kJointCount; ++joint) {
     const SeenJoint& seen = look.joints[evidence.sides_swapped ? mirrored(joint) : joint];
-    evidence.visibility[joint] = seen.visibility;
+    // What was not seen is no evidence, however much it helps the fit.
+    evidence.visibility[joint] = seen.told_visibility;
     evidence.disagreement[joint] = share_of_limit(seen, marked_place(body, joint, look.network),
                                                   limit_of(look.network, params));
   }

@@ -176,7 +176,7 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
       look.joints[index(joint.joint)] = {
           image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(),
           counted_visibility(look.network, joint.visibility, observation.has_colors, params),
-          joint.behind_hips_m};
+          joint.behind_hips_m, joint.visibility};
     }
     observation.looks.push_back(look);
   }

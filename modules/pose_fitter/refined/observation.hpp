@@ -25,9 +25,10 @@ struct PointColumns {
 
 /// A joint as the image shows it, in the range image's frame.
 struct SeenJoint {
-  Vec3 ray = Vec3::UnitZ();  ///< unit vector from the camera towards it
-  Real visibility = 0.0;     ///< 0 to 1, as it counts in the fit; 0: not told
-  Real behind_hips_m = 0.0;  ///< how much farther away than the hips' middle; rough
+  Vec3 ray = Vec3::UnitZ();    ///< unit vector from the camera towards it
+  Real visibility = 0.0;       ///< 0 to 1, as it counts in the fit; 0: not told
+  Real behind_hips_m = 0.0;    ///< how much farther away than the hips' middle; rough
+  Real told_visibility = 0.0;  ///< how sure the network is that it is in sight, 0 to 1
 };
 
 /// A person as one of them sees it.
