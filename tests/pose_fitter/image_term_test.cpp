@@ -205,6 +205,14 @@ TEST_F(ImageTerm, TellsWhatTheNetworkOfDepthsSeesByItself) {
     EXPECT_EQ(marked_place(body_, joint, ImageNetwork::kDepthPose), body_.points[joint]);
 }
 
+TEST_F(ImageTerm, OfAHiddenJointIsNoEvidenceThoughItCounts) {
+  SeenJoint& wrist = look().joints[kWrist];
+  wrist.visibility = 0.25;
+  wrist.told_visibility = 0.01;
+  EXPECT_GT(cost(with_wrist_moved({0.5, 0.0, 0.0})), 0.0);
+  EXPECT_NEAR(evidence_of(body_).visibility[kWrist], 0.01, 1e-9);
+}
+
 TEST_F(ImageTerm, TellsWhereAnArmPointsByTheNetworkThatTellsDepths) {
   const auto left_axis = [&] {
     return seen_arm_axis(body_, observation_, 0, image_evidence(body_, observation_, params_));
