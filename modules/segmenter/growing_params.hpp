@@ -36,6 +36,10 @@ struct SurfaceParams {
   float ground_cut_m = 0.04F;
 };
 
+/// Half as far as growing steps: a limb or a body parts from the wall and from who stands before
+/// it.
+inline constexpr SurfaceParams kPartedSurface{0.05F, 0.006F};
+
 /// Growing from all heads together.
 struct JointGrowingParams : SurfaceParams {
   /// Longest way from the head along the surface [m]: crown to sole of a 2 m person, and a bend.

@@ -97,7 +97,7 @@ struct ClassifierParams {
 /// People whose head is out of sight (hidden_heads.hpp).
 struct HiddenHeadParams {
   /// Half as far as growing steps: a body must part from the one before it and from the wall.
-  SurfaceParams surface{0.05F, 0.006F};
+  SurfaceParams surface = kPartedSurface;
   /// Surface of what is seen of such a body [m^2]: an arm and a leg beside somebody, a whole body
   /// without its head.
   float min_area_m2 = 0.05F, max_area_m2 = 0.7F;
@@ -167,7 +167,7 @@ struct WholeBodyParams {
 /// more of a hundred arms are right; limits twice as wide change nothing.
 struct LostArmParams {
   /// Surfaces of nobody part where growing might go on: an arm from the wall.
-  SurfaceParams surface{0.05F, 0.006F};
+  SurfaceParams surface = kPartedSurface;
   /// Least visibility of elbow and wrist.
   float min_visibility = 0.5F;
   /// A forearm and an upper arm with sleeves [m^2], and its larger level side [m].
@@ -187,7 +187,7 @@ struct LostArmParams {
 /// 59 before stereo pairs 40.
 struct FloatingArmParams {
   /// Surfaces of nobody part where growing might go on: an arm from the wall.
-  SurfaceParams surface{0.05F, 0.006F};
+  SurfaceParams surface = kPartedSurface;
   /// Less is a stray return, more is larger than an arm with its sleeve [m^2].
   float min_area_m2 = 0.002F, max_area_m2 = 0.12F;
   /// Largest step to the nearest of the person's points [m]: an upper arm.
@@ -203,8 +203,13 @@ struct FloatingArmParams {
 
 /// The same of clouds with colours: a stereo pair's has specks of its own, and the image tells of
 /// arms too.
-inline constexpr FloatingArmParams kFloatingArmsBesideImage{
-    {0.05F, 0.006F}, 0.005F, 0.12F, 0.3F, 0.6F};
+inline constexpr FloatingArmParams kFloatingArmsBesideImage = [] {
+  FloatingArmParams params;
+  params.min_area_m2 = 0.005F;
+  params.max_from_person_m = 0.3F;
+  params.max_from_rival_m = 0.6F;
+  return params;
+}();
 
 /// The four filters of section III-B.2. The defaults are those of `growing = refined`: loose, since
 /// its classifiers judge too, and its clusters may be a head and a shoulder behind somebody else.

@@ -43,7 +43,7 @@ Real counted_visibility_of_wrist(float visibility, bool has_colors) {
 }
 
 TEST(JointsSeenInDepths, CountWhereTheyAreHiddenToo) {
-  const Real least = RefinedParams{}.least_depth_pose_visibility;
+  const Real least = RefinedParams{}.image_least_visibility.back();
   ASSERT_GT(least, 0.0);
   for (const bool has_colors : {false, true})
     EXPECT_EQ(counted_visibility_of_wrist(0.0F, has_colors), least);

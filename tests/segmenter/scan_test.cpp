@@ -8,14 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "common/cloud/ground_plane.hpp"
 #include "common/units.hpp"
 #include "modules/segmenter/cluster_figures.hpp"
 #include "modules/segmenter/panorama.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
 #include "modules/segmenter/segmenter.hpp"
-#include "modules/simulate/simulator.hpp"
+#include "tests/segmenter/simulated_person.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -163,13 +162,7 @@ struct ScannedPerson {
 };
 
 ScannedPerson scanned_person(const std::string& posture, std::uint64_t seed) {
-  simulate::SimulatorParams params;
-  params.sensor = simulate::SensorKind::kLaser;
-  params.scenario.posture = posture;
-  params.scenario.occluder_share = params.scenario.cut_share = 0.0;
-  params.scenario.body.child_share = 0.0;
-  params.scenario.min_distance_m = 2.4;
-  params.scenario.max_distance_m = 3.6;
+  simulate::SimulatorParams params = person_in_sight(simulate::SensorKind::kLaser, posture);
   params.laser.rings = 269;
   params.laser.azimuth_step_deg = 0.25;
   params.laser.min_elevation_deg = -33.5;
@@ -179,10 +172,8 @@ ScannedPerson scanned_person(const std::string& posture, std::uint64_t seed) {
   const auto& joints_m = frame.scenario.persons.at(0).skeleton.joints;
   std::transform(joints_m.begin(), joints_m.end(), person.joints_m.begin(),
                  [](const auto& joint_m) { return joint_m.template cast<float>(); });
-  person.cloud.stamp.gravity = {frame.told_down.cast<float>(), GravitySource::kRecording,
-                                std::nullopt};
   person.cloud.stamp.depth_noise = {0.01F, 0.0F};
-  complete_gravity(person.cloud);
+  set_gravity(frame, person.cloud);
   return person;
 }
 

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/cloud/ground_plane.hpp"
-#include "modules/simulate/simulator.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
+#include "tests/segmenter/simulated_person.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -57,14 +56,7 @@ INSTANTIATE_TEST_SUITE_P(PointingAtTheCamera, RecordedPerson,
 class PersonBeforeADepthCamera : public ::testing::TestWithParam<std::uint64_t> {
  protected:
   void SetUp() override {
-    simulate::SimulatorParams params;
-    params.sensor = simulate::SensorKind::kDepth;
-    params.color = false;
-    params.scenario.posture = "T";
-    params.scenario.occluder_share = params.scenario.cut_share = 0.0;
-    params.scenario.body.child_share = 0.0;
-    params.scenario.min_distance_m = 2.4;
-    params.scenario.max_distance_m = 3.6;
+    const simulate::SimulatorParams params = person_in_sight(simulate::SensorKind::kDepth, "T");
     const simulate::SimulatedFrame frame = simulate::simulate_frame(params, GetParam(), 0);
     cloud_.camera = params.camera;
     cloud_.width = params.camera.width;
@@ -74,8 +66,7 @@ class PersonBeforeADepthCamera : public ::testing::TestWithParam<std::uint64_t> 
         cloud_.points_m.push_back(params.camera.back_project(
             static_cast<float>(u), static_cast<float>(v), frame.sensed_depth_m.at<float>(v, u)));
     }
-    cloud_.stamp.gravity = {frame.told_down.cast<float>(), GravitySource::kRecording, std::nullopt};
-    complete_gravity(cloud_);
+    set_gravity(frame, cloud_);
     const auto& joints_m = frame.scenario.persons.at(0).skeleton.joints;
     elbow_m_ = joints_m[index(Joint::kElbowLeft)].cast<float>();
     wrist_m_ = joints_m[index(Joint::kWristLeft)].cast<float>();

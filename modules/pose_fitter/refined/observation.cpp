@@ -150,14 +150,6 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
   observation.skin_distance_px = chamfer_distance(no_skin, camera.width, camera.height);
 }
 
-/// What a joint counts that its network sees so surely.
-Real counted_visibility(ImageNetwork network, Real visibility, bool has_colors,
-                        const RefinedParams& params) {
-  if (network != ImageNetwork::kDepthPose) return visibility;
-  const Real exponent = has_colors ? 1.0 : params.colorless_visibility_exponent;
-  return std::max(params.least_depth_pose_visibility, std::pow(visibility, exponent));
-}
-
 void set_looks(const Segment& segment, const RangeImage& image, const RefinedParams& params,
                Observation& observation) {
   observation.has_colors = !image.is_skin.empty();
@@ -171,11 +163,13 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
     look.weight = params.image_weight.at(network);
     look.depth_weight = params.image_depth_weight.at(network);
     look.person_score = pose.person_score;
+    const Real least_visibility = params.image_least_visibility.at(network);
+    const Real exponent = observation.has_colors ? 1.0 : params.colorless_visibility_exponent;
     for (const ImageJoint& joint : pose.joints) {
       const Eigen::Vector2f px = joint.px - origin_px;
       look.joints[index(joint.joint)] = {
           image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(),
-          counted_visibility(look.network, joint.visibility, observation.has_colors, params),
+          std::max<Real>(least_visibility, std::pow(joint.visibility, exponent)),
           joint.behind_hips_m, joint.visibility};
     }
     observation.looks.push_back(look);

@@ -48,10 +48,10 @@ struct RefinedParams {
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
   std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.75};
   double image_depth_sigma_m = 0.05;
-  /// A joint counts as its network is sure that it is in sight. The one that tells depths is mostly
-  /// right about hidden joints too: its count this at least, and without colours, where nothing
-  /// else tells them, as a root of it. Tuned on simulated people and D1 to D3.
-  double least_depth_pose_visibility = 0.25;
+  /// A joint counts as its network is sure that it is in sight, and this at least: the one that
+  /// tells depths is mostly right about hidden joints too. Without colours, where it alone looks,
+  /// as a root of it. Tuned on simulated people and D1 to D3.
+  std::array<double, 3> image_least_visibility = {0.0, 0.0, 0.25};
   double colorless_visibility_exponent = 0.5;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
