@@ -219,7 +219,7 @@ std::unique_ptr<NetworkEngine> make_onednn_engine(const NetworkPart& part) {
 }
 
 bool onednn_is_quick() {
-  const auto needed = static_cast<int>(dnnl::cpu_isa::avx512_core_amx);
+  const auto needed = static_cast<int>(dnnl::cpu_isa::avx512_core_bf16);
   return (static_cast<int>(dnnl::get_effective_cpu_isa()) & needed) == needed;
 }
 
