@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/program_options.hpp>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -11,7 +10,9 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "common/config/byte_order_mark.hpp"
 #include "common/config/log.hpp"
@@ -47,116 +48,7 @@ std::string normalized_argument(const std::string& argument) {
          argument.substr(value_at);
 }
 
-template <class T>
-T parsed_number(const std::string& text) {
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  T value{};
-  in >> value;
-  if (in.fail() || !(in >> std::ws).eof()) throw std::invalid_argument(text);
-  return value;
-}
-
-template <class T>
-std::string number_text(T value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out << value;
-  return out.str();
-}
-
-/// NaN stands for an option that is left out: its help says what happens then.
-template <class T>
-std::string default_text(T value) {
-  return std::isnan(static_cast<double>(value)) ? "" : number_text(value);
-}
-
-template <class T>
-std::string range_text(const Range<T>& range) {
-  const bool has_min = range.min != std::numeric_limits<T>::lowest();
-  const bool has_max = range.max != std::numeric_limits<T>::max();
-  if (has_min && has_max) return number_text(range.min) + " to " + number_text(range.max);
-  if (has_min) return "at least " + number_text(range.min);
-  if (has_max) return "at most " + number_text(range.max);
-  return "a number";
-}
-
-bool parsed_bool(const std::string& text) {
-  if (text == "true" || text == "1" || text == "yes" || text == "on") return true;
-  if (text == "false" || text == "0" || text == "no" || text == "off") return false;
-  throw std::invalid_argument(text);
-}
-
 }  // namespace
-
-Section::Section(std::string name) : name_(std::move(name)) {}
-
-template <class T>
-void Section::add_number(const std::string& key, T& target, const std::string& unit,
-                         const std::string& help, Range<T> range) {
-  Entry entry{key, unit, help, default_text(target), range_text(range), false, {}};
-  entry.assign = [&target, range](const std::string& text) {
-    const T value = parsed_number<T>(text);
-    if (!(value >= range.min && value <= range.max)) throw std::invalid_argument(text);
-    target = value;
-  };
-  entries_.push_back(std::move(entry));
-}
-
-void Section::add(const std::string& key, double& target, const std::string& unit,
-                  const std::string& help, Range<double> range) {
-  add_number(key, target, unit, help, range);
-}
-
-void Section::add(const std::string& key, float& target, const std::string& unit,
-                  const std::string& help, Range<float> range) {
-  add_number(key, target, unit, help, range);
-}
-
-void Section::add(const std::string& key, int& target, const std::string& unit,
-                  const std::string& help, Range<int> range) {
-  add_number(key, target, unit, help, range);
-}
-
-void Section::add(const std::string& key, std::string& target, const std::string& help) {
-  entries_.push_back({key, "", help, target, "text", false,
-                      [&target](const std::string& text) { target = text; }});
-}
-
-void Section::add_name(const std::string& key, std::string& target, const std::string& help) {
-  entries_.push_back(
-      {key, "", help, target, "a name, not empty", false, [&target](const std::string& text) {
-         if (text.empty()) throw std::invalid_argument(text);
-         target = text;
-       }});
-}
-
-void Section::add_channel(const std::string& key, std::string& target, const std::string& help) {
-  entries_.push_back({key, "", help, target,
-                      "a name of 1 to " + std::to_string(kLongestChannel) + " characters", false,
-                      [&target](const std::string& text) {
-                        if (text.empty() || text.size() > kLongestChannel)
-                          throw std::invalid_argument(text);
-                        target = text;
-                      }});
-}
-
-void Section::add(const std::string& key, bool& target, const std::string& help) {
-  entries_.push_back({key, "", help, target ? "true" : "false", "true or false", true,
-                      [&target](const std::string& text) { target = parsed_bool(text); }});
-}
-
-void Section::add_choice(const std::string& key, std::string& target,
-                         const std::vector<std::string>& choices, const std::string& help) {
-  std::string allowed;
-  for (const std::string& choice : choices) allowed += (allowed.empty() ? "" : ", ") + choice;
-  entries_.push_back({key, "", help, target, "one of " + allowed, false,
-                      [&target, choices](const std::string& text) {
-                        if (std::find(choices.begin(), choices.end(), text) == choices.end())
-                          throw std::invalid_argument(text);
-                        target = text;
-                      }});
-}
 
 Parser::Parser(std::string program, std::string purpose)
     : program_(std::move(program)), purpose_(std::move(purpose)) {
@@ -217,7 +109,7 @@ std::vector<Parser::Given> Parser::read_command_line(int argc, const char* const
     if (is_flag) flags.insert("--" + name);
   };
   for (const Bound& bound : sections_) {
-    for (const Section::Entry& entry : bound.section->entries_) {
+    for (const Section::Entry& entry : bound.section->entries()) {
       if (bound.own) declare(entry.key, entry.is_flag);
       if (!bound.section->name().empty())
         declare(bound.section->name() + "." + entry.key, entry.is_flag);
@@ -278,7 +170,7 @@ void Parser::assign(const std::string& where, const std::string& section, const 
     const bool addressed =
         bound.section->name() == section || (section.empty() && bound.own && !from_file);
     if (!addressed) continue;
-    for (const Section::Entry& entry : bound.section->entries_) {
+    for (const Section::Entry& entry : bound.section->entries()) {
       if (entry.key != key) continue;
       try {
         entry.assign(text);
@@ -349,7 +241,7 @@ void Parser::print_help(std::ostream& out) const {
     const std::string& name = bound.section->name();
     out << '\n'
         << (name.empty() ? std::string("Common options") : "Section [" + name + "]") << ":\n";
-    for (const Section::Entry& entry : bound.section->entries_) {
+    for (const Section::Entry& entry : bound.section->entries()) {
       out << "  --" << (bound.own || name.empty() ? "" : name + ".") << entry.key
           << (entry.is_flag ? "[=VALUE]" : " VALUE") << "\n        " << entry.help;
       if (!entry.unit.empty()) out << " [" << entry.unit << ']';
