@@ -28,6 +28,7 @@ struct LiveCapture::Shared {
   void run();
   std::unique_ptr<FrameReader> try_open();
   void read_until_failure(FrameReader& reader);
+  bool told_to_stop() const;
   void hold(CapturedFrame frame);
   bool wait_before_reopening();
 
@@ -66,6 +67,11 @@ std::unique_ptr<FrameReader> LiveCapture::Shared::try_open() {
   return reader;
 }
 
+bool LiveCapture::Shared::told_to_stop() const {
+  const std::lock_guard lock(mutex);
+  return stopping;
+}
+
 void LiveCapture::Shared::hold(CapturedFrame frame) {
   const std::lock_guard lock(mutex);
   frames.push_back(std::move(frame));
@@ -80,17 +86,18 @@ void LiveCapture::Shared::hold(CapturedFrame frame) {
 }
 
 void LiveCapture::Shared::read_until_failure(FrameReader& reader) {
-  while (true) {
-    {
-      const std::lock_guard lock(mutex);
-      if (stopping) return;
+  std::string problem = params.name + ": gives no frames any more (unplugged or ended)";
+  try {
+    while (!told_to_stop()) {
+      std::optional<CapturedFrame> frame = reader.read();
+      if (!frame) break;
+      hold(std::move(*frame));
     }
-    std::optional<CapturedFrame> frame = reader.read();
-    if (!frame) break;
-    hold(std::move(*frame));
+  } catch (const InputError& failure) {
+    problem = failure.what();
   }
   const std::lock_guard lock(mutex);
-  statistics.problem = params.name + ": gives no frames any more (unplugged or ended)";
+  statistics.problem = problem;
 }
 
 /// False: there is nothing more to do.

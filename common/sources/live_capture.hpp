@@ -18,7 +18,8 @@ class FrameReader {
   virtual ~FrameReader() = default;
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
-  /// Waits for the next frame. Nothing: the camera failed, was unplugged or the stream ended.
+  /// Waits for the next frame. Nothing: the camera failed, was unplugged or the stream ended; where
+  /// it tells why it failed, throws InputError.
   virtual std::optional<CapturedFrame> read() = 0;
 };
 

@@ -61,6 +61,16 @@ TEST(LiveCaptureTest, EndsWithTheStreamWhereItIsNotToBeOpenedAgain) {
   EXPECT_THAT(capture.statistics().problem, HasSubstr("cam: gives no frames any more"));
 }
 
+TEST(LiveCaptureTest, TellsWhyACameraFailed) {
+  struct Failing : FrameReader {
+    std::optional<CapturedFrame> read() override { throw InputError("cam: its cable is loose"); }
+  };
+  LiveCapture capture([] { return std::make_unique<Failing>(); }, params_of("cam", false));
+  EXPECT_TRUE(capture.take(kForEver).empty());
+  EXPECT_TRUE(capture.ended());
+  EXPECT_EQ(capture.statistics().problem, "cam: its cable is loose");
+}
+
 TEST(LiveCaptureTest, OpensACameraAgainThatWasUnplugged) {
   PlayedCamera camera;
   const auto openings = std::make_shared<std::atomic<int>>(0);
