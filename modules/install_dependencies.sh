@@ -6,7 +6,7 @@ set -euo pipefail
 packages_run=(
   build-essential cmake ninja-build ccache git ca-certificates pkg-config
   liblcm-dev liblcm-bin libeigen3-dev libopencv-dev libboost-program-options-dev
-  nlohmann-json3-dev libzstd-dev libturbojpeg0-dev libtbb-dev libnanoflann-dev libxnnpack-dev libdnnl-dev libpthreadpool-dev libflatbuffers-dev libgomp1 qtbase5-dev
+  nlohmann-json3-dev libzstd-dev libturbojpeg0-dev libtbb-dev libnanoflann-dev libxnnpack-dev libdnnl-dev libpthreadpool-dev libflatbuffers-dev libgomp1 libgstreamer1.0-dev qtbase5-dev
   iproute2 procps)
 packages_test=(
   libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev

@@ -6,6 +6,7 @@
 
 #include "common/input_error.hpp"
 #include "common/sources/capture_time.hpp"
+#include "common/sources/pipeline_reader.hpp"
 #include "common/sources/v4l2_camera.hpp"
 #include "common/sources/v4l2_device.hpp"
 
@@ -50,21 +51,6 @@ std::string driver_settings(const CameraSettings& settings) {
   return names;
 }
 
-cv::VideoCapture open_pipeline(const std::string& pipeline, bool raw_depth) {
-  std::string whole = pipeline;
-  if (pipeline.find("appsink") == std::string::npos) {
-    // A conversion would take depth for grey values and drop half of their bits.
-    if (!raw_depth) whole += " ! videoconvert ! video/x-raw,format=(string){BGR,GRAY8}";
-    whole += " ! appsink max-buffers=2 drop=true sync=false";
-  }
-  cv::VideoCapture capture(whole, cv::CAP_GSTREAMER);
-  if (!capture.isOpened()) {
-    throw InputError("gst:" + pipeline +
-                     ": cannot be started; try it with gst-launch-1.0 and a sink");
-  }
-  return capture;
-}
-
 cv::VideoCapture open_stream(const std::string& url) {
   cv::VideoCapture capture(url, cv::CAP_FFMPEG);
   if (!capture.isOpened()) throw InputError(url + ": cannot be opened; is it sending?");
@@ -89,8 +75,7 @@ std::unique_ptr<FrameReader> open_camera(const std::string& source,
                      "here say it in the pipeline, or to the camera");
   }
   if (starts_with(source, kPipelinePrefix)) {
-    return std::make_unique<VideoReader>(
-        open_pipeline(source.substr(kPipelinePrefix.size()), settings.raw_depth));
+    return open_pipeline(source, source.substr(kPipelinePrefix.size()), settings.raw_depth);
   }
   return std::make_unique<VideoReader>(open_stream(source));
 }

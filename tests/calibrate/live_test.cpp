@@ -112,6 +112,13 @@ TEST_F(LiveCalibration, EndsWithACalibrationThatTheCameraReads) {
   EXPECT_EQ(camera.exit_code, 0) << camera.output;
 }
 
+TEST_F(LiveCalibration, EndsWhereThePipelineCannotPlay) {
+  const RunResult result =
+      run({program("limbcast-calibrate"), "--source", "gst:nonsense", "--output", output_});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.output, HasSubstr("gst:nonsense: no element \"nonsense\""));
+}
+
 TEST_F(LiveCalibration, TellsOfAStallAndWritesNothingWhereItIsToldToEnd) {
   const std::vector<GreyPair> shown = pictures(1);
   ASSERT_EQ(shown.size(), 1U);

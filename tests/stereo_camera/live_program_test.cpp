@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/lcm_io/decode.hpp"
@@ -13,7 +14,9 @@ namespace limbcast::test {
 namespace {
 
 using lcm_io::decode;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST_F(StereoCameraProgram, PlaysRecordedPairsThroughAPipelineAtTheirRate) {
   if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
@@ -128,6 +131,74 @@ TEST_F(CameraThatIsUnplugged, IsOpenedAgainWhenItComesBack) {
   EXPECT_THAT(camera_->output(), HasSubstr("over: "));
 }
 
+/// One that breaks after some pictures, again and again.
+class CameraThatBreaks : public PublishingStereoCamera {
+ protected:
+  void SetUp() override {
+    if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
+    start({"--source",
+           "gst:videotestsrc is-live=true pattern=white ! video/x-raw,width=128,height=48 ! "
+           "identity error-after=4"});
+  }
+};
+
+TEST_F(CameraThatBreaks, IsToldInGStreamersWordsAndOpenedAgain) {
+  ASSERT_TRUE(wait_for([this] { return status_ && status_->state == "failing"; }));
+  EXPECT_THAT(status_->last_error,
+              HasSubstr("error-after=4: identity0: Failed after iterations as requested."));
+  ASSERT_TRUE(wait_for([this] {
+    return !images_.empty() && status_->note.find(", 0 reopened") == std::string::npos;
+  }));
+  EXPECT_EQ(stop(), 0) << camera_->output();
+}
+
+/// A pipeline that cannot play. The program ends before it says anything else.
+class CameraPipelineThatFails : public StereoCameraProgram {
+ protected:
+  void SetUp() override {
+    if (!has_gstreamer()) GTEST_SKIP() << "gstreamer1.0-plugins-base and -good are absent";
+  }
+  /// What follows the pipeline's name.
+  std::string reason(const std::string& pipeline, bool reopen = true) const {
+    const RunResult result = write_log(
+        {"--source", "gst:" + pipeline, "--reopen=" + std::string(reopen ? "true" : "false")});
+    EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+    const std::string name = "limbcast-stereo-camera: gst:" + pipeline + ": ";
+    EXPECT_THAT(result.output, StartsWith(name));
+    return result.output.substr(std::min(name.size(), result.output.size()));
+  }
+};
+
+TEST_F(CameraPipelineThatFails, NamesTheElementThatIsMissingAndThePackages) {
+  EXPECT_THAT(reason("nonsense"), AllOf(StartsWith("no element \"nonsense\";"),
+                                        HasSubstr("gstreamer1.0-plugins-base, -good")));
+}
+
+TEST_F(CameraPipelineThatFails, NamesWhatIsWrittenWrong) {
+  EXPECT_THAT(reason("videotestsrc ! ! identity"), StartsWith("syntax error;"));
+  EXPECT_THAT(reason("videotestsrc colour=red"),
+              StartsWith("no property \"colour\" in element \"videotestsrc\"; try it with gst-l"));
+  EXPECT_THAT(reason("videotestsrc ! video/x-raw,width=128 ! jpegdec"),
+              StartsWith("could not link videotestsrc0 to jpegdec0, jpegdec0 can't handle caps "
+                         "video/x-raw, width=(int)128;"));
+}
+
+TEST_F(CameraPipelineThatFails, NamesTheDeviceThatIsMissing) {
+  EXPECT_THAT(reason("v4l2src device=/dev/video987 ! image/jpeg ! jpegdec"),
+              StartsWith("v4l2src0: Cannot identify device '/dev/video987'. (system error: No such "
+                         "file or directory); try it with gst-launch-1.0"));
+}
+
+TEST_F(CameraPipelineThatFails, TellsThatItsElementsDoNotAgree) {
+  for (const std::string live : {"false", "true"}) {
+    EXPECT_THAT(
+        reason("videotestsrc is-live=" + live + " ! video/x-raw,format=I420 ! appsink", false),
+        StartsWith("videotestsrc0: Internal data stream error. (streaming stopped, reason "
+                   "not-negotiated (-4)); try it with gst-launch-1.0"));
+  }
+}
+
 /// Two cameras, each a pipeline that plays the pictures of one side round and round.
 class TwoLiveCameras : public PublishingStereoCamera {
  protected:
@@ -179,7 +250,7 @@ TEST_F(TwoLiveCameras, OfOtherSizeThanTheCalibrationEndTheProgram) {
 TEST_F(TwoLiveCameras, WithoutTheSecondEndTheProgram) {
   start({"--source", camera("left"), "--source-right", "gst:v4l2src device=/dev/video987"});
   EXPECT_EQ(camera_->wait(), kWrongInput);
-  EXPECT_THAT(camera_->output(), HasSubstr("/dev/video987: cannot be started"));
+  EXPECT_THAT(camera_->output(), HasSubstr("Cannot identify device '/dev/video987'"));
 }
 
 TEST_F(TwoLiveCameras, TakeNoSettingsThatOnlyADriverCanDo) {

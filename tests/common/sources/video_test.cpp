@@ -158,7 +158,44 @@ TEST_F(Pipeline, OfTheWrongSizeIsRefused) {
 
 TEST_F(Pipeline, ThatCannotBeStartedIsNamed) {
   EXPECT_THAT(error_of_opening("gst:videotestsrc ! nosuchelement", stereo_format()),
-              HasSubstr("gst:videotestsrc ! nosuchelement: cannot be started"));
+              HasSubstr("gst:videotestsrc ! nosuchelement: no element \"nosuchelement\""));
+  EXPECT_THAT(error_of_opening("gst:videotestsrc ! fakesink name=appsink", stereo_format()),
+              HasSubstr("name=appsink: has no appsink"));
+}
+
+TEST_F(Pipeline, ThatIsLiveMayWaitForItsSender) {
+  const std::string silent = pattern("BGR", 128, -1) + " ! valve drop=true";
+  EXPECT_FALSE(open_source(options_for(silent), stereo_format())->ended());
+}
+
+TEST_F(Pipeline, GivesEachRowFromItsBegin) {
+  // GStreamer's rows begin at multiples of 4 bytes: one byte is between them.
+  const TemporaryFolder folder;
+  std::string bytes(64 * 48, '\xff');
+  cv::Mat expected(48, 63, CV_8UC1);
+  for (int y = 0; y < expected.rows; ++y) {
+    for (int x = 0; x < expected.cols; ++x) {
+      expected.at<uchar>(y, x) = static_cast<uchar>(x + y);
+      bytes[64 * y + x] = static_cast<char>(x + y);
+    }
+  }
+  const std::string source =
+      "gst:filesrc blocksize=3072 location=" + folder.write("grey", bytes) +
+      " ! video/x-raw,format=GRAY8,width=63,height=48,framerate=30/1 ! appsink";
+
+  const auto frame = open_camera(source, {})->read();
+
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(cv::norm(frame->picture.pixels, expected, cv::NORM_INF), 0.0);
+}
+
+TEST_F(Pipeline, ThatGivesLessThanAPictureFails) {
+  const TemporaryFolder folder;
+  const std::string source =
+      "gst:filesrc location=" + folder.write("grey", std::string(64 * 47, ' ')) +
+      " ! video/x-raw,format=GRAY8,width=64,height=48,framerate=30/1 ! appsink";
+  const auto reader = open_camera(source, {});
+  EXPECT_THAT(error_of<InputError>([&] { reader->read(); }), HasSubstr("gives a torn picture"));
 }
 
 TEST_F(Pipeline, ThatHangsIsNamed) {
