@@ -23,14 +23,11 @@ constexpr float kOffsetScale_m = 0.5F;
 constexpr float kMeanHeight_m = 1.35F, kMeanDepth_m = 2.7F, kNoiseScale_m = 0.1F;
 
 std::vector<std::uint32_t> asked_points(const Lattice& lattice,
-                                        const std::vector<std::int16_t>& labels,
-                                        std::int16_t label) {
+                                        const std::vector<std::uint32_t>& points) {
   std::vector<std::uint32_t> asked;
-  for (int v = 0; v < lattice.height; v += kStride_px) {
-    for (int u = 0; u < lattice.width; u += kStride_px) {
-      const std::size_t i = lattice.index(u, v);
-      if (labels[i] == label) asked.push_back(static_cast<std::uint32_t>(i));
-    }
+  for (const std::uint32_t i : points) {
+    const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
+    if (u % kStride_px == 0 && v % kStride_px == 0) asked.push_back(i);
   }
   return asked;
 }
@@ -40,8 +37,8 @@ int asked_from(int row) { return (row + kStride_px - 1) / kStride_px * kStride_p
 
 /// Mean over the asked points of the cluster that lie near; 0 where there is none.
 float mean_near(const Lattice& lattice, const std::vector<std::int16_t>& labels,
-                const std::vector<float>& asked_odds, int u, int v) {
-  const std::size_t i = lattice.index(u, v);
+                const std::vector<float>& asked_odds, std::uint32_t i) {
+  const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
   float sum = 0.0F;
   int count = 0;
   const int last_row = std::min(lattice.height - 1, v + kMeanReach_px);
@@ -87,9 +84,9 @@ PointInput point_input(const Lattice& lattice, const HeadCandidate& head, std::u
 
 std::vector<float> BodyClassifier::body_odds(const Lattice& lattice, const HeadCandidate& head,
                                              const std::vector<std::int16_t>& labels,
-                                             std::int16_t label) const {
-  std::vector<float> odds(lattice.size(), 0.0F);
-  const std::vector<std::uint32_t> asked = asked_points(lattice, labels, label);
+                                             const std::vector<std::uint32_t>& points) const {
+  std::vector<float> odds(points.size(), 0.0F);
+  const std::vector<std::uint32_t> asked = asked_points(lattice, points);
   if (asked.empty()) return odds;
   Network::Weights inputs(static_cast<Eigen::Index>(asked.size()), network_.hidden_weights.cols());
   for (std::size_t k = 0; k < asked.size(); ++k)
@@ -98,12 +95,8 @@ std::vector<float> BodyClassifier::body_odds(const Lattice& lattice, const HeadC
   std::vector<float> asked_odds(lattice.size(), 0.0F);
   for (std::size_t k = 0; k < asked.size(); ++k)
     asked_odds[asked[k]] = told[static_cast<Eigen::Index>(k)];
-  for (int v = 0; v < lattice.height; ++v) {
-    for (int u = 0; u < lattice.width; ++u) {
-      const std::size_t i = lattice.index(u, v);
-      if (labels[i] == label) odds[i] = mean_near(lattice, labels, asked_odds, u, v);
-    }
-  }
+  for (std::size_t k = 0; k < points.size(); ++k)
+    odds[k] = mean_near(lattice, labels, asked_odds, points[k]);
   return odds;
 }
 

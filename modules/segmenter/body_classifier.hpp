@@ -32,10 +32,11 @@ class BodyClassifier {
   BodyClassifier();
   explicit BodyClassifier(Network network);
 
-  /// Log odds that a point of the lattice is a body's, averaged over its neighbours on the surface,
-  /// for each point of the cluster `label`; 0 for the others.
+  /// Log odds that a point is a body's, averaged over its neighbours on the surface, for each of
+  /// `points`: those that carry the head's label.
   std::vector<float> body_odds(const Lattice& lattice, const HeadCandidate& head,
-                               const std::vector<std::int16_t>& labels, std::int16_t label) const;
+                               const std::vector<std::int16_t>& labels,
+                               const std::vector<std::uint32_t>& points) const;
 
  private:
   Network network_;

@@ -5,23 +5,10 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "modules/segmenter/lattice_box.hpp"
+
 namespace limbcast::segmenter {
 namespace {
-
-cv::Rect bounding_box(const Lattice& lattice, const std::vector<std::int16_t>& labels,
-                      std::int16_t label) {
-  int left = lattice.width, top = lattice.height, right = 0, bottom = 0;
-  for (int v = 0; v < lattice.height; ++v) {
-    for (int u = 0; u < lattice.width; ++u) {
-      if (labels[lattice.index(u, v)] != label) continue;
-      left = std::min(left, u);
-      right = std::max(right, u + 1);
-      top = std::min(top, v);
-      bottom = v + 1;
-    }
-  }
-  return right > left ? cv::Rect(left, top, right - left, bottom - top) : cv::Rect();
-}
 
 /// Whether the surface bends or makes a step near a point: the rim of an arm before a sofa. A flat
 /// surface has none, however steep it is seen.
@@ -87,10 +74,12 @@ bool may_be_trunk(const Eigen::Vector3f& from_head_m, const FurnitureParams& par
 
 std::vector<std::uint32_t> find_furniture(const Lattice& lattice, const HeadCandidate& head,
                                           const std::vector<std::int16_t>& labels,
-                                          std::int16_t label, const FurnitureParams& params) {
+                                          const std::vector<std::uint32_t>& points,
+                                          const FurnitureParams& params) {
   std::vector<std::uint32_t> furniture;
-  const cv::Rect box = bounding_box(lattice, labels, label);
-  if (box.empty()) return furniture;
+  if (points.empty()) return furniture;
+  const cv::Rect box = box_around(lattice, points);
+  const std::int16_t label = labels[points.front()];
   const cv::Mat1b wide = wide_parts(lattice, labels, label, box, params);
   for (int v = 0; v < box.height; ++v) {
     for (int u = 0; u < box.width; ++u) {
@@ -105,10 +94,10 @@ std::vector<std::uint32_t> find_furniture(const Lattice& lattice, const HeadCand
 
 void leave_furniture(const Lattice& lattice, const FurnitureParams& params, JointGrowth& growth) {
   std::vector<std::uint32_t> furniture;
-  for (std::size_t k = 0; k < growth.heads().size(); ++k) {
-    const auto label = static_cast<std::int16_t>(k);
-    if (growth.dropped(label)) continue;
-    const auto part = find_furniture(lattice, growth.heads()[k], growth.labels(), label, params);
+  const auto clusters = points_by_label(growth.labels(), growth.heads().size());
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    const auto part =
+        find_furniture(lattice, growth.heads()[k], growth.labels(), clusters[k], params);
     furniture.insert(furniture.end(), part.begin(), part.end());
   }
   if (!furniture.empty()) growth.grow_without(furniture);

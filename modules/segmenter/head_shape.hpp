@@ -17,6 +17,8 @@ struct HeadCandidate {
   float score = 0.0F;         ///< template's, 0 to 2.48; of a part of skin its area [m^2]
   SeedKind kind = SeedKind::kHeadShape;
   float odds = 0.0F;  ///< log odds that this is a head, of the classifier
+  /// `odds` come from the body beneath it, not from its shape.
+  bool told_by_body = false;
 };
 
 /// Heads by their shape: something as large as a head, nothing of its depth beside and over it,

@@ -3,6 +3,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "modules/segmenter/range_image.hpp"
@@ -45,7 +46,13 @@ ImageOpinion::ImageOpinion(const Params& params)
 
 HeadOpinion ImageOpinion::head_opinion(const Scene& scene) const {
   if (!params_.pose_network.enabled || !has_image(scene.cloud)) return nullptr;
-  return [&](const HeadCandidate& head) { return head_odds(scene, head); };
+  // Asked again when all heads grow anew beside one that was found later.
+  using Pixel = std::pair<int, int>;
+  return [&, known = std::map<Pixel, std::optional<float>>()](const HeadCandidate& head) mutable {
+    const auto [told, is_new] = known.try_emplace({head.u, head.v});
+    if (is_new) told->second = head_odds(scene, head);
+    return told->second;
+  };
 }
 
 BodyOpinion ImageOpinion::body_opinion(const Scene& scene, const FoundPeople& people) const {

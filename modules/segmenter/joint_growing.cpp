@@ -52,7 +52,8 @@ std::size_t bucket_of(float way_m) { return static_cast<std::size_t>(way_m / kBu
 }  // namespace
 
 JointGrowth::JointGrowth(const Lattice& lattice, std::vector<HeadCandidate> heads,
-                         const JointGrowingParams& params, const ReachParams& reach)
+                         const JointGrowingParams& params, const ReachParams& reach,
+                         const std::vector<std::int16_t>* taken)
     : lattice_(&lattice),
       heads_(std::move(heads)),
       dropped_(heads_.size(), false),
@@ -62,6 +63,11 @@ JointGrowth::JointGrowth(const Lattice& lattice, std::vector<HeadCandidate> head
       labels_(lattice.size(), kNobody),
       way_m_(lattice.size(), kNoWay_m),
       buckets_(bucket_of(params.max_way_m) + 2) {
+  if (taken != nullptr) {
+    forbidden_.resize(lattice.size());
+    std::transform(taken->begin(), taken->end(), forbidden_.begin(),
+                   [](std::int16_t label) { return static_cast<std::uint8_t>(label != kNobody); });
+  }
   grow();
 }
 

@@ -18,9 +18,11 @@ namespace limbcast::segmenter {
 /// from many starts: E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 class JointGrowth {
  public:
-  /// Grows at once. The lattice must outlive the object.
+  /// Grows at once, over points that `taken`, where it is told, gives no label. The lattice must
+  /// outlive the object.
   JointGrowth(const Lattice& lattice, std::vector<HeadCandidate> heads,
-              const JointGrowingParams& params, const ReachParams& reach);
+              const JointGrowingParams& params, const ReachParams& reach,
+              const std::vector<std::int16_t>* taken = nullptr);
 
   /// Gives the points of one head to the others, as if it had never been there. Returns the heads
   /// whose clusters, or what lies beside them, changed.

@@ -70,6 +70,10 @@ inline constexpr std::int16_t kNobody = -1;
 /// as if it had not been measured.
 inline constexpr std::int16_t kUnsure = -2;
 
+/// The points that carry each of the labels 0 ... num_labels - 1, row by row.
+std::vector<std::vector<std::uint32_t>> points_by_label(const std::vector<std::int16_t>& labels,
+                                                        std::size_t num_labels);
+
 /// Every `step`-th pixel of an organised cloud in both directions.
 Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step);
 

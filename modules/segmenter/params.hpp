@@ -162,6 +162,20 @@ struct WholeBodyParams {
   float head_odds = 3.0F;
 };
 
+/// People whose heads the depths around them do not tell, told by the whole body (overlooked.hpp).
+struct OverlookedParams {
+  /// Lowest log odds and score of the template (0 to 2.48) of a candidate that is asked about, how
+  /// far from people who were found and from likelier ones it must be [m], and of how many a frame:
+  /// each takes a look of the network.
+  float min_head_odds = -5.0F, min_template_score = 1.8F, min_distance_m = 0.6F,
+        separation_m = 0.4F;
+  int max_asked = 3;
+  /// Lowest log odds of a person, of the network of depths.
+  float min_person_odds = 4.0F;
+  /// Log odds of such a head: sure, as by `HiddenHeadParams::place_odds`.
+  float head_odds = 3.0F;
+};
+
 /// Arms that the colour image shows and that growing or cutting left out (lost_arms.hpp). On
 /// simulated people who point half of the forearms without a segment get theirs, and one to three
 /// more of a hundred arms are right; limits twice as wide change nothing.
@@ -267,6 +281,7 @@ struct Params {
   ClassifierParams classifier;
   HiddenHeadParams hidden_heads;
   WholeBodyParams whole_bodies;
+  OverlookedParams overlooked;
   LostArmParams lost_arms;
   FloatingArmParams floating_arms;
   FloatingArmParams floating_arms_beside_image = kFloatingArmsBesideImage;

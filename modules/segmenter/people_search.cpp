@@ -192,8 +192,7 @@ std::vector<HeadCandidate> likely_heads(const Lattice& lattice,
   const float min_head_odds =
       lattice.wraps_around ? params.min_panorama_head_odds : params.min_head_odds;
   for (HeadCandidate& candidate : candidates) {
-    // What is known of a body's head comes from the body, not from its shape.
-    if (candidate.kind != SeedKind::kBody)
+    if (!candidate.told_by_body)
       candidate.odds = classifier.head_odds(lattice, candidate) + prior_odds;
   }
   std::stable_sort(candidates.begin(), candidates.end(),

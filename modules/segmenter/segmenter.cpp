@@ -14,6 +14,7 @@
 #include "modules/segmenter/hidden_heads.hpp"
 #include "modules/segmenter/joint_growing.hpp"
 #include "modules/segmenter/lost_arms.hpp"
+#include "modules/segmenter/overlooked.hpp"
 #include "modules/segmenter/paper_search.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
@@ -93,14 +94,19 @@ Segments Segmenter::cut_out_people(const Cloud& cloud,
     heads.push_back(*head);
     result.segments.push_back(make_segment(*head, scene.lattice.frame, 0.0F));
   }
-  JointGrowth growth(scene.lattice, heads, params_.joint, params_.reach);
+  fill_segments(scene, grow_from(scene, std::move(heads)), result);
+  return result;
+}
+
+std::vector<std::int16_t> Segmenter::grow_from(const Scene& scene, std::vector<HeadCandidate> heads,
+                                               const std::vector<std::int16_t>* taken) const {
+  JointGrowth growth(scene.lattice, std::move(heads), params_.joint, params_.reach, taken);
   leave_furniture(scene.lattice, params_.furniture, growth);
   const std::vector<std::uint32_t> unsure =
       cut_to_bodies(scene.lattice, bodies_, params_.body_cut, growth);
   std::vector<std::int16_t> labels = growth.labels();
   for (const std::uint32_t i : unsure) labels[i] = kUnsure;
-  fill_segments(scene, labels_of_cloud(scene, labels, params_.joint), result);
-  return result;
+  return labels_of_cloud(scene, labels, params_.joint);
 }
 
 std::vector<HeadCandidate> Segmenter::find_seeds(const Scene& scene) const {
@@ -129,20 +135,24 @@ std::vector<HeadCandidate> Segmenter::find_seeds(const Scene& scene) const {
 }
 
 std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
-                                                  const std::vector<HeadCandidate>& seeds,
+                                                  std::vector<HeadCandidate> seeds,
                                                   Segments& result) const {
   const LevelFrame& frame = scene.lattice.frame;
   const HeadOpinion opinion = image_.head_opinion(scene);
-  FoundPeople people = find_people(scene.lattice, seeds, classifier_, bodies_, params_, opinion);
-  const SurfaceParams& surface = params_.hidden_heads.surface;
-  Surfaces surfaces = find_surfaces(scene.lattice, surface, &people.labels);
-  const std::vector<HeadCandidate> whole = find_whole_people(scene, surfaces);
-  if (!whole.empty()) {
-    std::vector<HeadCandidate> all = seeds;
-    all.insert(all.end(), whole.begin(), whole.end());
-    people = find_people(scene.lattice, std::move(all), classifier_, bodies_, params_, opinion);
-    surfaces = find_surfaces(scene.lattice, surface, &people.labels);
-  }
+  FoundPeople people;
+  Surfaces surfaces;
+  const auto find = [&] {
+    people = find_people(scene.lattice, seeds, classifier_, bodies_, params_, opinion);
+    surfaces = find_surfaces(scene.lattice, params_.hidden_heads.surface, &people.labels);
+  };
+  const auto find_with = [&](const std::vector<HeadCandidate>& more) {
+    if (more.empty()) return;
+    seeds.insert(seeds.end(), more.begin(), more.end());
+    find();
+  };
+  find();
+  find_with(find_whole_people(scene, surfaces));
+  find_with(find_overlooked_people(scene, people));
   if (scene.cloud.organized())
     add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, people,
                         image_.body_opinion(scene, people));
@@ -177,9 +187,33 @@ std::vector<HeadCandidate> Segmenter::find_whole_people(const Scene& scene,
       body.head.v = seen->v;
     }
     body.head.odds = params_.whole_bodies.head_odds;
+    body.head.told_by_body = true;
     people.push_back(body.head);
   }
   return people;
+}
+
+std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
+                                                             const FoundPeople& people) const {
+  if (!params_.depth_pose.enabled) return {};
+  std::vector<HeadCandidate> refused = find_overlooked(scene.lattice, people, params_.overlooked);
+  if (refused.empty()) return {};
+  const std::vector<std::int16_t> labels = grow_from(scene, refused, &people.labels);
+  const LevelFrame& frame = scene.lattice.frame;
+  tbb::parallel_for(std::size_t{0}, refused.size(), [&](std::size_t k) {
+    HeadCandidate& head = refused[k];
+    Segment body;
+    fill_segment(scene, labels, static_cast<std::int16_t>(k), body);
+    if (!body.range_image) return;
+    const auto pose =
+        depth_pose_.look(*body.range_image, frame.to_sensor(head.center_m), frame.down());
+    head.told_by_body = pose && log_odds(pose->person_score) >= params_.overlooked.min_person_odds;
+  });
+  refused.erase(std::remove_if(refused.begin(), refused.end(),
+                               [](const HeadCandidate& head) { return !head.told_by_body; }),
+                refused.end());
+  for (HeadCandidate& head : refused) head.odds = params_.overlooked.head_odds;
+  return refused;
 }
 
 std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,
@@ -253,21 +287,23 @@ void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labe
   if (mends_arms) join_arms(scene, labels, result);
   if (image) see_people(scene, labels, result);
   if (mends_arms) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
-  const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
-                                params_.range_image_margin_m};
-  const Eigen::Vector3f down = scene.lattice.frame.down();
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
-    if (!segment.valid()) continue;
-    const auto label = static_cast<std::int16_t>(k);
-    if (scene.cloud.organized())
-      fill_from_camera(source, label, segment);
-    else
-      fill_from_scan(source, label, down, params_.scan_range_image.focal_px,
-                     params_.scan_range_image.gap_px, segment);
+    if (segment.valid()) fill_segment(scene, labels, static_cast<std::int16_t>(k), segment);
   }
-  see_depths(down, result);
+  see_depths(scene.lattice.frame.down(), result);
+}
+
+void Segmenter::fill_segment(const Scene& scene, const std::vector<std::int16_t>& labels,
+                             std::int16_t label, Segment& segment) const {
+  const RangeImageSource source{scene.cloud, labels, skin_, params_.skin.min_log_ratio,
+                                params_.range_image_margin_m};
+  if (scene.cloud.organized())
+    fill_from_camera(source, label, segment);
+  else
+    fill_from_scan(source, label, scene.lattice.frame.down(), params_.scan_range_image.focal_px,
+                   params_.scan_range_image.gap_px, segment);
 }
 
 Segments segment(const Cloud& cloud, const Params& params) {

@@ -39,14 +39,21 @@ class Segmenter {
   std::vector<HeadCandidate> find_seeds(const Scene& scene) const;
   /// Both add segments to `result`, those of people first, and return the segment of each of the
   /// cloud's points.
-  std::vector<std::int16_t> grow_refined(const Scene& scene,
-                                         const std::vector<HeadCandidate>& seeds,
+  std::vector<std::int16_t> grow_refined(const Scene& scene, std::vector<HeadCandidate> seeds,
                                          Segments& result) const;
   std::vector<std::int16_t> grow_as_paper(const Scene& scene,
                                           const std::vector<HeadCandidate>& seeds,
                                           Segments& result) const;
   /// Heads of bodies that nobody has and that the network of poses takes for people.
   std::vector<HeadCandidate> find_whole_people(const Scene& scene, const Surfaces& surfaces) const;
+  /// Refused heads whose whole bodies the network of depths takes for people.
+  std::vector<HeadCandidate> find_overlooked_people(const Scene& scene,
+                                                    const FoundPeople& people) const;
+  /// The head of each of the cloud's points as all of them grow together, whether or not they are
+  /// heads, and what is no part of a body is cut off. Points of the lattice that `taken` labels are
+  /// left out.
+  std::vector<std::int16_t> grow_from(const Scene& scene, std::vector<HeadCandidate> heads,
+                                      const std::vector<std::int16_t>* taken = nullptr) const;
   /// Joins segments that are arms of somebody else's to theirs, as the image shows them.
   void join_arms(const Scene& scene, std::vector<std::int16_t>& labels, Segments& result) const;
   /// What the networks see of each person and its face in the colour image.
@@ -55,6 +62,9 @@ class Segmenter {
   /// What the network of depths sees of each person.
   void see_depths(const Eigen::Vector3f& down, Segments& result) const;
   void fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Segments& result) const;
+  /// The points of the cloud that carry `label`, and the range image around them.
+  void fill_segment(const Scene& scene, const std::vector<std::int16_t>& labels, std::int16_t label,
+                    Segment& segment) const;
 
   Params params_;
   SkinColor skin_;

@@ -26,7 +26,7 @@ TEST(Furniture, IsNoneOnABodyAlone) {
       look_at([](float right_m, float up_m) { return is_body(right_m, up_m) ? kBody_m : 0.0F; });
   const std::vector<HeadCandidate> heads = {head_at(lattice, 0.0F, 0.8F)};
   const auto labels = grow_together(lattice, heads, {}, {});
-  EXPECT_TRUE(find_furniture(lattice, heads[0], labels, 0, {}).empty());
+  EXPECT_TRUE(find_furniture(lattice, heads[0], labels, points_by_label(labels, 1)[0], {}).empty());
 }
 
 TEST(Furniture, IsTheSofaBesideABody) {

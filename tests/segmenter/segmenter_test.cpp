@@ -58,15 +58,7 @@ class PersonBeforeADepthCamera : public ::testing::TestWithParam<std::uint64_t> 
   void SetUp() override {
     const simulate::SimulatorParams params = person_in_sight(simulate::SensorKind::kDepth, "T");
     const simulate::SimulatedFrame frame = simulate::simulate_frame(params, GetParam(), 0);
-    cloud_.camera = params.camera;
-    cloud_.width = params.camera.width;
-    cloud_.height = params.camera.height;
-    for (int v = 0; v < cloud_.height; ++v) {
-      for (int u = 0; u < cloud_.width; ++u)
-        cloud_.points_m.push_back(params.camera.back_project(
-            static_cast<float>(u), static_cast<float>(v), frame.sensed_depth_m.at<float>(v, u)));
-    }
-    set_gravity(frame, cloud_);
+    cloud_ = depth_cloud(params, frame);
     const auto& joints_m = frame.scenario.persons.at(0).skeleton.joints;
     elbow_m_ = joints_m[index(Joint::kElbowLeft)].cast<float>();
     wrist_m_ = joints_m[index(Joint::kWristLeft)].cast<float>();

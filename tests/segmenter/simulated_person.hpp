@@ -27,4 +27,20 @@ inline void set_gravity(const simulate::SimulatedFrame& frame, Cloud& cloud) {
   complete_gravity(cloud);
 }
 
+/// What a depth camera without colours measured.
+inline Cloud depth_cloud(const simulate::SimulatorParams& params,
+                         const simulate::SimulatedFrame& frame) {
+  Cloud cloud;
+  cloud.camera = params.camera;
+  cloud.width = params.camera.width;
+  cloud.height = params.camera.height;
+  for (int v = 0; v < cloud.height; ++v) {
+    for (int u = 0; u < cloud.width; ++u)
+      cloud.points_m.push_back(params.camera.back_project(
+          static_cast<float>(u), static_cast<float>(v), frame.sensed_depth_m.at<float>(v, u)));
+  }
+  set_gravity(frame, cloud);
+  return cloud;
+}
+
 }  // namespace limbcast::segmenter

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/segmenter/head_shape.hpp"
+#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/params.hpp"
+#include "modules/segmenter/people_search.hpp"
+
+namespace limbcast::segmenter {
+
+/// Candidates that were refused for the depths around them and may be heads all the same, the
+/// likeliest first: apart from the people who were found, on surfaces that nobody has.
+std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPeople& people,
+                                           const OverlookedParams& params);
+
+}  // namespace limbcast::segmenter

@@ -1,0 +1,126 @@
+#include "modules/segmenter/overlooked.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/segmenter/segmenter.hpp"
+#include "tests/segmenter/drawn_scene.hpp"
+#include "tests/segmenter/simulated_person.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+/// A figure that was found and two that were not, side by side before the sensor.
+class RefusedHeads : public ::testing::Test {
+ protected:
+  RefusedHeads() {
+    found_.labels.assign(lattice_.size(), kNobody);
+    for (std::uint32_t i = 0; i < lattice_.size(); ++i) {
+      if (lattice_.depth_m[i] > 0.0F && lattice_.level_m[i].x() < -0.3F) found_.labels[i] = 0;
+    }
+    found_.heads.push_back(head_at(lattice_, kFound_m, kHead_m));
+  }
+
+  static HeadCandidate as_likely(HeadCandidate head, float odds) {
+    head.odds = odds;
+    head.score = 2.0F;
+    return head;
+  }
+  void refuse(const HeadCandidate& head, SegmentFilter filter = SegmentFilter::kNotHeadShaped) {
+    found_.rejected.push_back({head, {filter, 0.1F, 0.3F}});
+  }
+  std::vector<HeadCandidate> overlooked() const { return find_overlooked(lattice_, found_, {}); }
+
+  static constexpr float kFound_m = -0.7F, kFirst_m = 0.1F, kSecond_m = 0.7F, kHead_m = 0.8F;
+  const Lattice lattice_ = look_at([](float right_m, float up_m) {
+    const bool figure = std::abs(right_m - kFound_m) < 0.2F ||
+                        std::abs(right_m - kFirst_m) < 0.2F || std::abs(right_m - kSecond_m) < 0.2F;
+    return figure && up_m < 0.9F ? kBody_m : 0.0F;
+  });
+  const HeadCandidate first_ = as_likely(head_at(lattice_, kFirst_m, kHead_m), -3.0F);
+  const HeadCandidate second_ = as_likely(head_at(lattice_, kSecond_m, kHead_m), -2.0F);
+  FoundPeople found_;
+};
+
+TEST_F(RefusedHeads, AreAskedAboutTheLikeliestFirst) {
+  refuse(first_);
+  refuse(second_);
+  const auto asked = overlooked();
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0].u, second_.u);
+  EXPECT_EQ(asked[1].u, first_.u);
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutOnSomebodyWhoWasFound) {
+  refuse(as_likely(head_at(lattice_, kFound_m, kHead_m - 1.0F), -2.0F));
+  EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutBesideAHeadThatWasFound) {
+  found_.heads.push_back(head_at(lattice_, kFirst_m, kHead_m - 0.4F));
+  refuse(first_);
+  EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreAskedAboutOnceWhereTwoAreOneFigures) {
+  refuse(first_);
+  refuse(as_likely(head_at(lattice_, kFirst_m, kHead_m - 0.2F), -4.0F));
+  EXPECT_EQ(overlooked().size(), 1U);
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutWhereNothingSpeaksForThem) {
+  refuse(as_likely(first_, -6.0F));
+  HeadCandidate shapeless = second_;
+  shapeless.score = 1.0F;
+  refuse(shapeless);
+  EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutWhereAnotherFilterEndedThem) {
+  refuse(first_, SegmentFilter::kSamePerson);
+  EXPECT_TRUE(overlooked().empty());
+}
+
+/// What a segmenter finds that takes no head for one by the depths around it.
+class HeadsThatLookLikeNone : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  static Params strict() {
+    Params params;
+    params.classifier.min_head_odds = 100.0F;
+    params.overlooked.min_head_odds = -100.0F;
+    params.overlooked.head_odds = 101.0F;
+    // The other ways to people whose heads are not told.
+    params.whole_bodies.min_score = params.whole_bodies.min_score_on_top = 2.0F;
+    params.hidden_heads.min_body_odds = 100.0F;
+    return params;
+  }
+  static std::size_t count_people(const simulate::SimulatorParams& scene, std::uint64_t seed,
+                                  const Params& params) {
+    const Segments found =
+        segment(depth_cloud(scene, simulate::simulate_frame(scene, seed, 0)), params);
+    return static_cast<std::size_t>(
+        std::count_if(found.segments.begin(), found.segments.end(),
+                      [](const Segment& segment) { return segment.valid(); }));
+  }
+};
+
+TEST_P(HeadsThatLookLikeNone, AreToldByTheWholeBodyInDepths) {
+  const auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  EXPECT_EQ(count_people(scene, GetParam(), strict()), 1U);
+  Params nobody_asked = strict();
+  nobody_asked.overlooked.max_asked = 0;
+  EXPECT_EQ(count_people(scene, GetParam(), nobody_asked), 0U);
+}
+
+TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
+  simulate::SimulatorParams room = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  room.scenario.set = simulate::SetKind::kNoHuman;
+  EXPECT_EQ(count_people(room, GetParam(), strict()), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
+
+}  // namespace
+}  // namespace limbcast::segmenter
