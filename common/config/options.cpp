@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/program_options.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -258,6 +259,9 @@ int run_program(const std::string& program, const std::function<void()>& body) {
   constexpr int kWrongUsage = 2;
   try {
     body();
+    // A full disk must not pass for a report.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("cannot write to stdout");
     return 0;
   } catch (const InputError& error) {
     log_failure(program, error.what());

@@ -78,7 +78,8 @@ class Parser {
 };
 
 /// Runs `body` and turns its end into an exit code: 0 done, 1 failed at run time, 2 wrong usage or
-/// input; an exception prints one line "program: what" on stderr.
+/// input; an exception, or output that could not be written, prints one line "program: what" on
+/// stderr.
 int run_program(const std::string& program, const std::function<void()>& body);
 
 }  // namespace limbcast::config

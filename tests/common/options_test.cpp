@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -178,6 +180,14 @@ TEST(RunProgram, TellsWrongUsageFromFailure) {
   EXPECT_EQ(run_program("p", [] {}), 0);
   EXPECT_EQ(run_program("p", [] { throw std::runtime_error("disk full"); }), 1);
   EXPECT_EQ(run_program("p", [] { throw UsageError("no such file"); }), 2);
+}
+
+TEST(RunProgram, FailsWhereItsOutputCannotBeWritten) {
+  const auto print_to_a_full_disk = [] {
+    if (std::freopen("/dev/full", "w", stdout) == nullptr) std::abort();
+    std::exit(run_program("p", [] { std::printf("good\n"); }));
+  };
+  EXPECT_EXIT(print_to_a_full_disk(), ::testing::ExitedWithCode(1), "p: cannot write to stdout");
 }
 
 }  // namespace
