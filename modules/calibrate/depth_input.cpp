@@ -8,10 +8,9 @@
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/encoded_image.hpp"
 #include "common/config/options.hpp"
-#include "common/lcm_io/decode.hpp"
-#include "common/lcm_io/depth_images_codec.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/sources/log_playback.hpp"
+#include "modules/calibrate/log_messages.hpp"
 #include "modules/calibrate/pair_input.hpp"
 #include "modules/depth_camera/frame_format.hpp"
 #include "modules/depth_camera/registration.hpp"
@@ -36,19 +35,9 @@ bool holds_pictures(const std::string& folder, const std::string& name_end) {
                      });
 }
 
-/// The next frame of a depth camera in a log; nothing after the last.
-std::optional<lcm_io::CalibratedDepthImages> next_frame(lcm_io::LogReader& reader) {
-  while (const auto event = reader.next()) {
-    check_not_told_to_end();
-    if (event->channel == kDepthChannel)
-      return lcm_io::from_message(lcm_io::decode<depth_images_t>(event->data));
-  }
-  return std::nullopt;
-}
-
 void visit_depth_log(const std::string& log, const TakeFrame& take) {
-  lcm_io::LogReader reader(log);
-  while (const auto frame = next_frame(reader)) {
+  LogMessages<depth_images_t> frames(log, kDepthChannel);
+  while (const auto frame = frames.next()) {
     if (!take(frame->images)) return;
   }
 }
@@ -90,8 +79,10 @@ void visit_depth_frames(const SourceOptions& options, const DepthCalibration& ca
 DepthCalibration find_depth_calibration(const std::string& path, const std::string& source) {
   if (!path.empty()) return read_depth_calibration(path);
   if (!is_lcm_log(source)) throw config::UsageError("--calibration is missing; see --help");
-  lcm_io::LogReader reader(source);
-  return next_frame(reader).value().calibration;
+  if (const auto frame = LogMessages<depth_images_t>(source, kDepthChannel).next())
+    return frame->calibration;
+  throw InputError(source + ": holds no frame on " + kDepthChannel +
+                   " that can be read; give the calibration with --calibration");
 }
 
 }  // namespace limbcast::calibrate

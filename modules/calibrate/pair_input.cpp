@@ -9,13 +9,10 @@
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/encoded_image.hpp"
 #include "common/config/log.hpp"
-#include "common/lcm_io/calibration_codec.hpp"
-#include "common/lcm_io/decode.hpp"
-#include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
-#include "common/lcm_io/stereo_images_codec.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
+#include "modules/calibrate/log_messages.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -47,15 +44,12 @@ void visit_folder(const std::string& folder, const Take& take) {
 }
 
 void visit_log(const std::string& log, const Take& take) {
-  lcm_io::LogReader reader(log);
+  LogMessages<stereo_images_t> pairs(log, kImagesChannel);
   bool found = false;
-  while (const auto event = reader.next()) {
-    check_not_told_to_end();
-    if (event->channel != kImagesChannel) continue;
+  while (const auto images = pairs.next()) {
     found = true;
-    const StereoImages images = lcm_io::from_message(lcm_io::decode<stereo_images_t>(event->data));
-    const std::int64_t utime = images.stamp.utime;
-    if (!take({std::to_string(utime), grey(images.left), grey(images.right), utime})) return;
+    const std::int64_t utime = images->stamp.utime;
+    if (!take({std::to_string(utime), grey(images->left), grey(images->right), utime})) return;
   }
   if (!found) throw InputError(log + ": holds no pairs on " + kImagesChannel);
 }
@@ -84,13 +78,15 @@ void visit_stream(const SourceOptions& options, const Take& take) {
 }
 
 StereoCalibration calibration_in(const std::string& log) {
-  lcm_io::LogReader reader(log);
-  while (const auto event = reader.next()) {
-    if (event->channel == kCalibrationChannel)
-      return lcm_io::from_message(lcm_io::decode<stereo_calibration_t>(event->data));
-  }
+  if (const auto calibration = LogMessages<stereo_calibration_t>(log, kCalibrationChannel).next())
+    return *calibration;
   throw InputError(log + ": holds no calibration on " + kCalibrationChannel +
                    "; give one with --calibration");
+}
+
+void check_exists(const std::string& source) {
+  if (!source.empty() && !is_camera(source) && !std::filesystem::exists(source))
+    throw InputError(source + ": does not exist; give a folder, log, video or camera to --source");
 }
 
 }  // namespace
@@ -148,6 +144,7 @@ std::vector<std::string> pictures_read(const SourceOptions& source) {
 StereoCalibration find_calibration(const std::string& path, const std::string& source) {
   if (!path.empty()) return read_stereo_calibration(path);
   if (is_lcm_log(source)) return calibration_in(source);
+  check_exists(source);
   throw config::UsageError("--calibration is missing; see --help");
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/calibration_writer.hpp"
+#include "common/lcm_io/log_file.hpp"
 #include "tests/calibrate/boards.hpp"
 #include "tests/common/run_program.hpp"
 
@@ -185,6 +186,29 @@ TEST(CalibrateProgram, ChecksACalibrationOnABoard) {
   EXPECT_THAT(too_long.out, ::testing::ContainsRegex("lengths on the board are off by .(9|10)"));
 }
 
+TEST(CalibrateProgram, LeavesMalformedMessagesOfALogOut) {
+  const TemporaryFolder folder;
+  lcm_io::LogReader in(std::string(LIMBCAST_SOURCE_DIR) + "/logs/nobody.log");
+  lcm_io::LogWriter out(folder / "in.log");
+  int num_pairs = 0, num_calibrations = 0;
+  while (auto event = in.next()) {
+    // Of eight pairs every other one, and the first calibration.
+    const bool malformed = event->channel == "STEREO_IMAGES"        ? num_pairs++ % 2 == 0
+                           : event->channel == "STEREO_CALIBRATION" ? num_calibrations++ == 0
+                                                                    : false;
+    if (malformed) event->data.resize(event->data.size() / 2);
+    out.write(*event);
+  }
+  out.close();
+  const Outcome outcome =
+      run_program("limbcast-calibrate", {"check", "--source", folder / "in.log"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("4 pairs"));
+  for (const char* channel : {"STEREO_CALIBRATION", "STEREO_IMAGES"})
+    EXPECT_THAT(outcome.err, HasSubstr("in.log: malformed messages on " + std::string(channel) +
+                                       " are left out; the first: not a message of this type"));
+}
+
 TEST(CalibrateProgram, ExplainsWrongUsage) {
   const Outcome no_output = run_program("limbcast-calibrate", {"--source", "/nowhere"});
   EXPECT_EQ(no_output.exit_code, 2);
@@ -193,6 +217,9 @@ TEST(CalibrateProgram, ExplainsWrongUsage) {
       run_program("limbcast-calibrate", {"--source", "/nowhere", "--output", "c.yml"});
   EXPECT_EQ(no_folder.exit_code, 2);
   EXPECT_THAT(no_folder.err, HasSubstr("/nowhere"));
+  const Outcome no_log = run_program("limbcast-calibrate", {"check", "--source", "/nowhere.log"});
+  EXPECT_EQ(no_log.exit_code, 2);
+  EXPECT_THAT(no_log.err, HasSubstr("/nowhere.log: does not exist"));
 }
 
 TEST(CalibrateProgram, NamesItsCommandsWhereOneIsUnknown) {
