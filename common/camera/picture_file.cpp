@@ -1,5 +1,8 @@
 #include "common/camera/picture_file.hpp"
 
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -12,8 +15,15 @@ void check_picture_ending(const std::string& path) {
     throw InputError(path + ": no picture format has this ending; use .png");
 }
 
-void write_picture(const std::string& path, const cv::Mat& image) {
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
+void write_picture(const std::string& path, const cv::Mat& image, const std::vector<int>& params) {
+  // Coded in memory: of a full disk libpng says words of its own on stderr.
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(std::filesystem::path(path).extension().string(), image, bytes, params);
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace limbcast

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "common/camera/calibration_writer.hpp"
+#include "common/camera/picture_file.hpp"
 #include "common/config/options.hpp"
 #include "modules/simulate/truth.hpp"
 
@@ -16,9 +17,7 @@ namespace {
 
 void write_image(const std::string& path, const cv::Mat& image) {
   if (image.empty()) return;
-  if (!cv::imwrite(path, image, {cv::IMWRITE_JPEG_QUALITY, 95, cv::IMWRITE_PNG_COMPRESSION, 3})) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
+  write_picture(path, image, {cv::IMWRITE_JPEG_QUALITY, 95, cv::IMWRITE_PNG_COMPRESSION, 3});
 }
 
 cv::Mat millimetres(const cv::Mat& depth_m) {

@@ -2,18 +2,13 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "common/camera/picture_file.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast::viewer {
 namespace {
-
-void write_picture(const std::string& path, const cv::Mat& image) {
-  // OpenCV's own settings for PNG are the fastest; any level of compression switches them off.
-  if (!cv::imwrite(path, image)) throw std::runtime_error(path + ": cannot be written");
-}
 
 int codec_of(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
@@ -34,6 +29,7 @@ void write_pictures(const std::string& folder, const DrawnFrame& frame) {
   char name[32];
   std::snprintf(name, sizeof(name), "frame_%05d_", frame.number);
   const std::string begin = (std::filesystem::path(folder) / name).string();
+  // OpenCV's own settings for PNG are the fastest; any level of compression switches them off.
   for (const Picture& picture : frame.pictures)
     write_picture(begin + picture.name + ".png", picture.image);
   write_picture(begin + "sheet.png", frame.sheet);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "common/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,6 +25,17 @@ TEST(PictureFile, IsNamedWhereItCannotBeWritten) {
   const cv::Mat image(2, 2, CV_8UC1, cv::Scalar(0));
   EXPECT_EQ(test::error_of<std::runtime_error>([&] { write_picture(path, image); }),
             path + ": cannot be written");
+}
+
+TEST(PictureFile, IsAllThatIsSaidOfAFullDisk) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "report.png");
+  const cv::Mat image(200, 200, CV_8UC1, cv::Scalar(0));
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(
+      test::error_of<std::runtime_error>([&] { write_picture(folder / "report.png", image); }),
+      folder / "report.png: cannot be written");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
