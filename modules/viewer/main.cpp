@@ -8,6 +8,7 @@
 #include <limbcast/segments_t.hpp>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 
 #include "common/bounded_map.hpp"
@@ -162,9 +163,12 @@ void view_log(const Options& options) {
   if (numbers.empty())
     log(LogLevel::kWarning,
         options.log + ": holds no clouds, segments or poses to draw; limbcast-replay adds them");
-  else if (!windowed)
-    log(LogLevel::kInfo,
-        std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames drawn");
+  if (windowed || numbers.empty()) return;
+  const std::string drawn =
+      std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames";
+  if (num_drawn < numbers.size())
+    throw std::runtime_error("interrupted: " + drawn + "; what was drawn so far is kept");
+  log(LogLevel::kInfo, drawn + " drawn");
 }
 
 /// Whose figures are shown: more than run on all hosts of a robot.

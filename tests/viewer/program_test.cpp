@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <thread>
 
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/log_file.hpp"
@@ -106,6 +109,19 @@ TEST(ViewerProgram, FailsWhereTheDiskTakesOnlyAPartOfTheVideo) {
     EXPECT_EQ(run.exit_code, 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr(name + ": cannot be written"));
   }
+}
+
+TEST(ViewerProgram, FailsWhereItIsInterrupted) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 2000, true);
+  test::ChildProcess viewer(
+      {test::program("limbcast-viewer"), folder / "out.log", "--png", folder / "pictures"},
+      folder / "said");
+  while (viewer.running() && !std::filesystem::exists(folder / "pictures/frame_00000_sheet.png"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  viewer.signal(SIGINT);
+  EXPECT_EQ(viewer.wait(), 1);
+  EXPECT_THAT(viewer.output(), HasSubstr("limbcast-viewer: interrupted: "));
 }
 
 TEST(ViewerProgram, SaysWhenThereIsNothingToDraw) {
