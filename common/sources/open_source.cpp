@@ -87,9 +87,10 @@ std::unique_ptr<PairSource> open_source(const SourceOptions& options, const Pair
         options.source, format, FolderParams{{rate_hz, options.start_utime}, options.loop});
   }
   if (!fs::exists(options.source)) {
-    throw InputError(options.source +
-                     ": does not exist; give a folder of pictures, a video file, /dev/videoN, "
-                     "gst:PIPELINE or a stream's URL");
+    throw InputError(
+        options.source +
+        ": does not exist; give a folder of pictures, an LCM log, a video file, /dev/videoN, "
+        "gst:PIPELINE or a stream's URL");
   }
   if (format.second_is_depth) {
     throw InputError(options.source + ": is no folder; videos cannot hold 16-bit depth");

@@ -10,9 +10,9 @@ namespace {
 
 void open_video(cv::VideoCapture& video, const std::string& path) {
   if (!video.open(path, cv::CAP_FFMPEG)) {
-    throw InputError(
-        path +
-        ": cannot be opened as a video; give a video file, a folder of pictures or a camera");
+    throw InputError(path +
+                     ": cannot be opened as a video; give a video file, an LCM log, a folder of "
+                     "pictures or a camera");
   }
 }
 
