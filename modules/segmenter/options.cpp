@@ -68,7 +68,7 @@ void declare(config::Section& section, SegmenterOptions& options) {
       "see them with a second network too, which errs elsewhere; 8 to 22 ms of CPU a person");
   section.add("depth-pose", params.depth_pose.enabled,
               "see them in depths alone with limbcast's own network, which tells left from right "
-              "without colours; 3 ms of CPU a person");
+              "without colours; 8 ms of CPU a person");
   section.add(
       "portable-networks", options.portable_networks,
       "compute networks in 32 bits as every processor can, so that other computers give the "
