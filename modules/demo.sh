@@ -2,9 +2,10 @@
 # From nothing to poses: installs and builds what is missing, runs the chain as separate processes over LCM on a
 # recording, prints a line for each frame and person, and ends with pictures and the accuracy.
 #   modules/demo.sh                            the demo log of this repository
-#   modules/demo.sh RECORDING [CALIBRATION]    your own: a folder of *_left/*_right images, *_color/*_depth images or
-#                                              laser scans (.pcd, .ply, .bin), a Velodyne's .pcap, or a log made by
-#                                              lcm-logger; CALIBRATION of images: default FOLDER/calibration.yml
+#   modules/demo.sh RECORDING [CALIBRATION]    your own: a folder of *_left/*_right images, *_color/*_depth images,
+#                                              *_depth images alone or laser scans (.pcd, .ply, .bin), a Velodyne's
+#                                              .pcap, or a log made by lcm-logger; CALIBRATION of images: default
+#                                              FOLDER/calibration.yml
 # Settings (environment): DEMO_OUTPUT folder for log and pictures, DEMO_RATE frames a second.
 # Exit codes: 0 done, 1 failed, 2 wrong usage or input.
 set -euo pipefail
@@ -47,15 +48,16 @@ fi
 if [[ $input == *.pcap ]] || { [ -d "$input" ] && ls "$input" | grep -Eiq '\.(pcd|ply|bin)$'; }; then
   camera=(limbcast-laser-scanner --source "$input")
 elif [ -d "$input" ]; then
-  calibration=${calibration:-$input/calibration.yml}
-  [ -e "$calibration" ] || refuse "$calibration: no such calibration; give it as second argument"
   if compgen -G "$input/*_left.*" >/dev/null; then
-    camera=(limbcast-stereo-camera --source "$input" --calibration "$calibration")
-  elif compgen -G "$input/*_color.*" >/dev/null; then
-    camera=(limbcast-depth-camera --source "$input" --calibration "$calibration")
+    camera=(limbcast-stereo-camera)
+  elif compgen -G "$input/*_color.*" >/dev/null || compgen -G "$input/*_depth.*" >/dev/null; then
+    camera=(limbcast-depth-camera)
   else
     refuse "$input: holds no *_left.* and *_right.* images, no *_color.* and *_depth.png images and no scans"
   fi
+  calibration=${calibration:-$input/calibration.yml}
+  [ -e "$calibration" ] || refuse "$calibration: no such calibration; give it as second argument"
+  camera+=(--source "$input" --calibration "$calibration")
 elif grep -aq -m 1 DEPTH_IMAGES "$input"; then
   camera=(limbcast-depth-camera --source "$input")
 elif grep -aq -m 1 STEREO_IMAGES "$input"; then
