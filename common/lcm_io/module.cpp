@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
+#include "common/formatted.hpp"
 #include "common/lcm_io/module_status_codec.hpp"
 
 namespace limbcast::lcm_io {
@@ -62,17 +63,17 @@ const std::string& url_of_network(const std::string& name, const config::CommonO
   return options.lcm_url;
 }
 
+std::string age_text(float age_ms) {
+  if (std::isnan(age_ms)) return "nothing sent";
+  return is_age_of_live_data(age_ms) ? formatted("age p50 %.1f ms", age_ms) : "recorded data";
+}
+
 std::string summary(const module_status_t& status) {
-  std::array<char, 32> age = {"recorded data"};
-  if (is_age_of_live_data(status.latency_p50_ms))
-    std::snprintf(age.data(), age.size(), "age p50 %.1f ms", status.latency_p50_ms);
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(),
-                "%.1f frames/s in, %.1f out, %s, %lld lost, %lld skipped, %lld malformed",
-                status.rate_in_hz, status.rate_out_hz, age.data(),
-                static_cast<long long>(status.num_lost), static_cast<long long>(status.num_skipped),
-                static_cast<long long>(status.num_malformed));
-  return text.data();
+  return formatted("%.1f frames/s in, %.1f out, %s, %lld lost, %lld skipped, %lld malformed",
+                   status.rate_in_hz, status.rate_out_hz, age_text(status.latency_p50_ms).c_str(),
+                   static_cast<long long>(status.num_lost),
+                   static_cast<long long>(status.num_skipped),
+                   static_cast<long long>(status.num_malformed));
 }
 
 }  // namespace
