@@ -72,6 +72,8 @@ class Trial {
     std::vector<RejectedHead> rejected;
     for (std::size_t k = 0; k < after.size(); ++k) {
       if (growth_.dropped(static_cast<std::int16_t>(k)) || before[k] == 0) continue;
+      // Somebody beside a wall or on a sofa, whose body was seen already.
+      if (growth_.heads()[k].told_by_body) continue;
       const float share = static_cast<float>(after[k]) / static_cast<float>(before[k]);
       if (share >= min_share) continue;
       growth_.drop(static_cast<std::int16_t>(k));
