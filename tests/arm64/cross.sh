@@ -9,6 +9,8 @@ cd "$(dirname "$0")/../.."
 folder=$(realpath -m "${1:-/tmp/limbcast-arm64}")
 x86_64=$(realpath "${2:-build/release/bin}")
 export LIMBCAST_SYSROOT=$folder/root QEMU_LD_PREFIX=$folder/root
+# GStreamer's program that looks at plugins would be looked for among those of x86-64; its list stays apart from theirs.
+export GST_REGISTRY_FORK=no GST_REGISTRY=$folder/gstreamer.bin
 
 step() { printf '\n== %s (%s)\n' "$*" "$(date +%T)"; }
 
@@ -28,7 +30,7 @@ END
   names=(libc6-dev libstdc++-12-dev libgomp1)
   # shellcheck disable=SC2154 # the line above assigns them
   for name in "${packages_run[@]}" "${packages_test[@]}"; do
-    case $name in libdnnl-dev | libpcl-dev) ;; *-dev) names+=("$name") ;; esac
+    case $name in libdnnl-dev | libpcl-dev) ;; *-dev | gstreamer1.0-plugins-*) names+=("$name") ;; esac
   done
   export APT_CONFIG=$apt/apt.conf
   apt-get update -q >"$folder/apt.log"
