@@ -99,6 +99,15 @@ TEST(FindPeople, LeavesOutAHeadWhoseClusterIsNearlyAllOtherThings) {
   EXPECT_LT(found.rejected[0].rejection.figure, 0.2F);
 }
 
+TEST(FindPeople, KeepsABodyThatWasSeenWhateverIsCutOffWithIt) {
+  const Lattice lattice = body_with_seat(0.6F);
+  HeadCandidate head = head_at(lattice, 0.0F, 0.8F);
+  head.odds = 5.0F;
+  head.told_by_body = true;
+  const BodyClassifier a_wall = parted_at(-0.15F);
+  EXPECT_EQ(find_people(lattice, {head}, constant_classifier(5.0F), a_wall, {}).heads.size(), 1U);
+}
+
 TEST(BodyClassifier, SeesAMirroredPointFromTheOtherSide) {
   const Lattice left =
       look_at([](float right_m, float) { return right_m < 0.3F ? kBody_m : 0.0F; });

@@ -80,7 +80,7 @@ std::size_t people_with_seed_below_head(float odds) {
   });
   HeadCandidate head = head_at(lattice, 0.0F, 0.8F), below = head_at(lattice, 0.0F, 0.4F);
   // The odds of such seeds are their own.
-  head.kind = below.kind = SeedKind::kBody;
+  head.told_by_body = below.told_by_body = true;
   head.odds = kSure + 0.1F;
   below.odds = odds;
   const BodyClassifier all_bodies(constant_network(kSure, kPointInputSize));
