@@ -119,4 +119,9 @@ void LogWriter::fail() const {
                            "); what was written so far is kept");
 }
 
+std::string torn_end(const std::string& log, std::int64_t torn_bytes) {
+  return log + ": is torn, its last " + std::to_string(torn_bytes) +
+         " bytes are no whole message and were left out";
+}
+
 }  // namespace limbcast::lcm_io

@@ -72,4 +72,7 @@ class LogWriter {
   lcm_eventlog_t* log_;
 };
 
+/// What is said of a log whose last bytes hold no whole message.
+std::string torn_end(const std::string& log, std::int64_t torn_bytes);
+
 }  // namespace limbcast::lcm_io

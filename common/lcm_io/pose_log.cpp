@@ -35,10 +35,7 @@ void warn_about(const PoseLogSummary& summary, const std::string& log, const std
     config::log(LogLevel::kWarning, log + ": " + std::to_string(summary.malformed) +
                                         " malformed messages on " + channel +
                                         " dropped; the first: " + summary.first_problem);
-  if (summary.torn_bytes > 0)
-    config::log(LogLevel::kWarning, log + ": is torn, its last " +
-                                        std::to_string(summary.torn_bytes) +
-                                        " bytes are no whole message and were left out");
+  if (summary.torn_bytes > 0) config::log(LogLevel::kWarning, torn_end(log, summary.torn_bytes));
 }
 
 }  // namespace limbcast::lcm_io

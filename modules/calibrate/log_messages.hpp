@@ -33,20 +33,16 @@ class LogMessages {
         return lcm_io::from_message(lcm_io::decode<Message>(event->data));
       } catch (const lcm_io::MessageError& error) {
         if (num_malformed_++ == 0)
-          warn("malformed messages on " + channel_ + " are left out; the first: " + error.what());
+          config::log(config::LogLevel::kWarning, log_ + ": malformed messages on " + channel_ +
+                                                      " are left out; the first: " + error.what());
       }
     }
     if (reader_.torn_bytes() > 0)
-      warn("is torn, its last " + std::to_string(reader_.torn_bytes()) +
-           " bytes are no whole message and were left out");
+      config::log(config::LogLevel::kWarning, lcm_io::torn_end(log_, reader_.torn_bytes()));
     return std::nullopt;
   }
 
  private:
-  void warn(const std::string& problem) const {
-    config::log(config::LogLevel::kWarning, log_ + ": " + problem);
-  }
-
   std::string log_, channel_;
   lcm_io::LogReader reader_;
   int num_malformed_ = 0;

@@ -5,6 +5,7 @@
 
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
+#include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/replay/replay.hpp"
 
@@ -59,9 +60,7 @@ Progress shown_progress(Clock::time_point start) {
 }
 
 void report(const ReplaySummary& summary, const std::string& in, double seconds) {
-  if (summary.torn_bytes > 0)
-    log(LogLevel::kWarning, in + ": is torn, its last " + std::to_string(summary.torn_bytes) +
-                                " bytes are no whole message and were left out");
+  if (summary.torn_bytes > 0) log(LogLevel::kWarning, lcm_io::torn_end(in, summary.torn_bytes));
   for (const std::string& sensor : summary.uncalibrated)
     log(LogLevel::kWarning, in + ": no calibration of stereo camera '" + sensor +
                                 "'; began with what was made from its images");

@@ -22,15 +22,6 @@ LevelFrame make_level_frame(const Gravity& gravity, const std::optional<Ground>&
   return frame;
 }
 
-std::vector<std::vector<std::uint32_t>> points_by_label(const std::vector<std::int16_t>& labels,
-                                                        std::size_t num_labels) {
-  std::vector<std::vector<std::uint32_t>> points(num_labels);
-  for (std::uint32_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] >= 0) points[static_cast<std::size_t>(labels[i])].push_back(i);
-  }
-  return points;
-}
-
 Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step) {
   Lattice lattice;
   lattice.frame = frame;

@@ -71,8 +71,15 @@ inline constexpr std::int16_t kNobody = -1;
 inline constexpr std::int16_t kUnsure = -2;
 
 /// The points that carry each of the labels 0 ... num_labels - 1, row by row.
-std::vector<std::vector<std::uint32_t>> points_by_label(const std::vector<std::int16_t>& labels,
-                                                        std::size_t num_labels);
+template <class Label>
+std::vector<std::vector<std::uint32_t>> points_by_label(const std::vector<Label>& labels,
+                                                        std::size_t num_labels) {
+  std::vector<std::vector<std::uint32_t>> points(num_labels);
+  for (std::uint32_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] >= 0) points[static_cast<std::size_t>(labels[i])].push_back(i);
+  }
+  return points;
+}
 
 /// Every `step`-th pixel of an organised cloud in both directions.
 Lattice thin(const Cloud& cloud, const LevelFrame& frame, int step);

@@ -147,6 +147,13 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
   };
   const auto find_with = [&](const std::vector<HeadCandidate>& more) {
     if (more.empty()) return;
+    // In place of the same heads as they were refused.
+    const auto is_found = [&](const HeadCandidate& seed) {
+      return std::any_of(more.begin(), more.end(), [&](const HeadCandidate& head) {
+        return head.u == seed.u && head.v == seed.v;
+      });
+    };
+    seeds.erase(std::remove_if(seeds.begin(), seeds.end(), is_found), seeds.end());
     seeds.insert(seeds.end(), more.begin(), more.end());
     find();
   };

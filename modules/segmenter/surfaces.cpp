@@ -77,12 +77,7 @@ Surfaces find_surfaces(const Lattice& lattice, const SurfaceParams& params,
 }
 
 std::vector<std::vector<std::uint32_t>> points_by_surface(const Surfaces& surfaces) {
-  std::vector<std::vector<std::uint32_t>> points(surfaces.all.size());
-  for (std::uint32_t i = 0; i < surfaces.of_point.size(); ++i) {
-    if (surfaces.of_point[i] >= 0)
-      points[static_cast<std::size_t>(surfaces.of_point[i])].push_back(i);
-  }
-  return points;
+  return points_by_label(surfaces.of_point, surfaces.all.size());
 }
 
 }  // namespace limbcast::segmenter

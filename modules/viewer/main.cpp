@@ -16,6 +16,7 @@
 #include "common/config/output_file.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/bus.hpp"
+#include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "common/lcm_io/module_status_codec.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
@@ -158,8 +159,7 @@ void view_log(const Options& options) {
   if (log_frames.num_malformed() > 1)
     log(LogLevel::kWarning, std::to_string(log_frames.num_malformed()) + " messages dropped");
   if (log_frames.torn_bytes() > 0)
-    log(LogLevel::kWarning, options.log + ": is torn, its last " +
-                                std::to_string(log_frames.torn_bytes()) + " bytes were left out");
+    log(LogLevel::kWarning, lcm_io::torn_end(options.log, log_frames.torn_bytes()));
   if (numbers.empty())
     log(LogLevel::kWarning,
         options.log + ": holds no clouds, segments or poses to draw; limbcast-replay adds them");
