@@ -57,6 +57,15 @@ std::vector<std::uint8_t> udp_payload(const std::vector<std::uint8_t>& frame, st
   return {frame.begin() + static_cast<std::ptrdiff_t>(payload_at), frame.end()};
 }
 
+/// Why a port cannot be listened on, and what to do.
+std::string reason_to_refuse(int port, int error) {
+  if (error == EADDRINUSE)
+    return " is taken by another process; end it (ss -lunp sport = :" + std::to_string(port) +
+           " names it), or let the scanner send to another port";
+  return std::string(": ") + std::strerror(error) +
+         "; let the scanner send to a port from 1024 on, which needs no privilege";
+}
+
 }  // namespace
 
 PcapReader::PcapReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -122,22 +131,20 @@ std::optional<Packet> PcapReader::next() {
 }
 
 UdpReceiver::UdpReceiver(int port) : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-  const int yes = 1;
   // A turn of a fast scanner, so that none is lost while one is worked on.
   const int buffer_bytes = 4'000'000;
   const timeval timeout{0, 100'000};
-  setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes, sizeof(buffer_bytes));
   setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_ANY);
   address.sin_port = htons(static_cast<std::uint16_t>(port));
+  // Without SO_REUSEADDR: of two that share a port, one alone gets what is sent to this host.
   if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    const std::string reason = std::strerror(errno);
+    const int error = errno;
     ::close(socket_);
-    throw InputError("UDP port " + std::to_string(port) + ": " + reason +
-                     "; end what listens there");
+    throw InputError("UDP port " + std::to_string(port) + reason_to_refuse(port, error));
   }
 }
 

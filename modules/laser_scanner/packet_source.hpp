@@ -42,7 +42,7 @@ class PcapReader {
 /// Receives UDP packets on a port of this host.
 class UdpReceiver {
  public:
-  /// Throws InputError where the port cannot be opened.
+  /// Throws InputError where the port cannot be opened or another process listens there.
   explicit UdpReceiver(int port);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;

@@ -259,6 +259,27 @@ TEST_F(Recorded, LiveScannerThatSendsNothingIsTold) {
               HasSubstr(": no packets for 0 s; is the scanner on"));
 }
 
+TEST_F(Recorded, LiveScannersPortIsNotSharedWithAnotherReader) {
+  const CloudSourceParams live = params("velodyne:" + std::to_string(own_port()));
+  const auto error = [&live] { return error_of<InputError>([&] { open_cloud_source(live); }); };
+  const auto is_taken = HasSubstr("UDP port " + std::to_string(own_port()) +
+                                  " is taken by another process; end it (ss -lunp sport = :" +
+                                  std::to_string(own_port()) + " names it)");
+  {
+    const auto source = open_cloud_source(live);
+    EXPECT_THAT(error(), is_taken);
+  }
+  // Another program that would share its port, as PCL's grabbers do.
+  const int other = socket(AF_INET, SOCK_DGRAM, 0);
+  const int yes = 1;
+  for (const int option : {SO_REUSEADDR, SO_REUSEPORT})
+    setsockopt(other, SOL_SOCKET, option, &yes, sizeof(yes));
+  const sockaddr_in address = address_of("0.0.0.0", own_port());
+  ASSERT_EQ(bind(other, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  EXPECT_THAT(error(), is_taken);
+  close(other);
+}
+
 TEST_F(Recorded, ScansOfTheDataAreRead) {
   const std::string data = LIMBCAST_DATA_DIR;
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";
