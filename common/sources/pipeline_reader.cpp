@@ -59,6 +59,26 @@ Pipeline parse(const std::string& name, const std::string& text) {
                                   : kTry));
 }
 
+/// Whether data can begin in this element: in one without inputs. What holds others does not count.
+bool is_source(const GstElement* element) {
+  return element->numsinkpads == 0 && G_OBJECT_TYPE(element) != GST_TYPE_BIN;
+}
+
+/// Without a source no picture would ever come, and no error.
+void require_source(const std::string& name, const Pipeline& pipeline) {
+  GstIterator* const elements = gst_bin_iterate_recurse(GST_BIN(pipeline.get()));
+  GValue element = G_VALUE_INIT;
+  bool found = false;
+  while (!found && gst_iterator_next(elements, &element) == GST_ITERATOR_OK)
+    found = is_source(GST_ELEMENT(g_value_get_object(&element)));
+  g_value_unset(&element);
+  gst_iterator_free(elements);
+  if (!found)
+    throw InputError(name +
+                     ": has no element that pictures come from; begin it with one, as "
+                     "v4l2src or rtspsrc");
+}
+
 Owned<GstElement> appsink_of(const std::string& name, const Pipeline& pipeline) {
   GstIterator* const sinks =
       gst_bin_iterate_all_by_element_factory_name(GST_BIN(pipeline.get()), "appsink");
@@ -102,6 +122,7 @@ class PipelineReader : public FrameReader {
         pipeline_(parse(name_, text)),
         bus_(gst_element_get_bus(pipeline_.get())),
         sink_(appsink_of(name_, pipeline_)) {
+    require_source(name_, pipeline_);
     gst_util_set_object_arg(G_OBJECT(sink_.get()), "caps",
                             "video/x-raw,format=(string){BGR,GRAY8,GRAY16_LE}");
     const bool live = set_state(GST_STATE_PAUSED) == GST_STATE_CHANGE_NO_PREROLL;

@@ -184,6 +184,14 @@ TEST_F(CameraPipelineThatFails, NamesWhatIsWrittenWrong) {
                          "video/x-raw, width=(int)128;"));
 }
 
+TEST_F(CameraPipelineThatFails, TellsThatNothingGivesPictures) {
+  for (const char* sourceless : {"videoconvert", "videoscale ! videoconvert ! appsink", "appsink",
+                                 "( decodebin ! videoconvert )"})
+    EXPECT_THAT(
+        reason(sourceless),
+        StartsWith("has no element that pictures come from; begin it with one, as v4l2src"));
+}
+
 TEST_F(CameraPipelineThatFails, NamesTheDeviceThatIsMissing) {
   EXPECT_THAT(reason("v4l2src device=/dev/video987 ! image/jpeg ! jpegdec"),
               StartsWith("v4l2src0: Cannot identify device '/dev/video987'. (system error: No such "
