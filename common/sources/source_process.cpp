@@ -99,6 +99,17 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
   }
 }
 
+void refuse_camera_options(const SourceOptions& options, const std::string& second_key) {
+  if (is_camera(options.source) || !fs::exists(options.source)) return;
+  const std::string settings = driver_settings(options.camera);
+  if (!settings.empty())
+    throw config::UsageError(options.source + ": is a recording; leave out " + settings +
+                             ", which can be set for /dev/videoN only");
+  const bool holds_both = fs::is_directory(options.source) || is_lcm_log(options.source);
+  if (holds_both && !options.second_source.empty())
+    throw config::UsageError(options.source + ": holds all images; leave out " + second_key);
+}
+
 void require_end(const SourceProcessOptions& options) {
   if (options.log.empty() || !options.source.loop) return;
   throw config::UsageError("'log' and 'loop' together never end; leave one out");

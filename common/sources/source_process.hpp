@@ -43,6 +43,10 @@ void declare(config::Section& section, SourceProcessOptions& options,
 void require_input(const SourceProcessOptions& options, const std::string& program,
                    bool second_will_do = false);
 
+/// Throws config::UsageError where the source is a recording, but settings of cameras are given, or
+/// a second camera beside a folder or log. `second_key` is its option.
+void refuse_camera_options(const SourceOptions& options, const std::string& second_key);
+
 /// Throws config::UsageError for a log that would never end.
 void require_end(const SourceProcessOptions& options);
 

@@ -36,7 +36,19 @@ class VideoReader : public FrameReader {
   cv::VideoCapture capture_;
 };
 
-/// What of the settings a driver alone can do, for messages; empty: nothing.
+cv::VideoCapture open_stream(const std::string& url) {
+  cv::VideoCapture capture(url, cv::CAP_FFMPEG);
+  if (!capture.isOpened()) throw InputError(url + ": cannot be opened; is it sending?");
+  return capture;
+}
+
+}  // namespace
+
+bool is_camera(const std::string& source) {
+  return is_device(source) || starts_with(source, kPipelinePrefix) ||
+         source.find("://") != std::string::npos;
+}
+
 std::string driver_settings(const CameraSettings& settings) {
   std::string names;
   const auto add = [&](bool wanted, const char* name) {
@@ -49,19 +61,6 @@ std::string driver_settings(const CameraSettings& settings) {
   add(std::isfinite(settings.exposure), "exposure");
   add(std::isfinite(settings.gain), "gain");
   return names;
-}
-
-cv::VideoCapture open_stream(const std::string& url) {
-  cv::VideoCapture capture(url, cv::CAP_FFMPEG);
-  if (!capture.isOpened()) throw InputError(url + ": cannot be opened; is it sending?");
-  return capture;
-}
-
-}  // namespace
-
-bool is_camera(const std::string& source) {
-  return is_device(source) || starts_with(source, kPipelinePrefix) ||
-         source.find("://") != std::string::npos;
 }
 
 std::unique_ptr<FrameReader> open_camera(const std::string& source,

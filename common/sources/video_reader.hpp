@@ -15,6 +15,10 @@ bool is_camera(const std::string& source);
 /// settings is logged; pipelines and streams take none. Throws InputError naming what to do.
 std::unique_ptr<FrameReader> open_camera(const std::string& source, const CameraSettings& settings);
 
+/// Which of the settings are given that the driver of a device alone can do, by the names of their
+/// options ("exposure, gain"); empty: none.
+std::string driver_settings(const CameraSettings& settings);
+
 /// For the log at start: what a V4L2 device can do (see v4l2_abilities); empty for other cameras.
 std::string camera_abilities(const std::string& source);
 

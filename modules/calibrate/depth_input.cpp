@@ -10,6 +10,7 @@
 #include "common/config/options.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/sources/log_playback.hpp"
+#include "common/sources/source_process.hpp"
 #include "modules/calibrate/log_messages.hpp"
 #include "modules/calibrate/pair_input.hpp"
 #include "modules/depth_camera/frame_format.hpp"
@@ -70,6 +71,7 @@ bool is_of_depth_camera(const std::string& source) {
 
 void visit_depth_frames(const SourceOptions& options, const DepthCalibration& calibration,
                         const TakeFrame& take) {
+  refuse_camera_options(options, "source-depth");
   if (is_lcm_log(options.source))
     visit_depth_log(options.source, take);
   else

@@ -121,6 +121,7 @@ bool in_sequence(const std::string& source) { return !std::filesystem::is_direct
 
 void visit_pairs(const SourceOptions& options, const Take& take) {
   if (options.source.empty()) throw config::UsageError("--source is missing; see --help");
+  refuse_camera_options(options, "source-right");
   if (std::filesystem::is_directory(options.source)) {
     visit_folder(options.source, take);
   } else if (is_lcm_log(options.source)) {

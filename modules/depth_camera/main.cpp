@@ -12,6 +12,8 @@
 namespace limbcast::depth_camera {
 namespace {
 
+constexpr const char* kSecondKey = "source-depth";
+
 struct Options {
   SourceProcessOptions process;
   std::string images_channel = "DEPTH_IMAGES";
@@ -19,7 +21,7 @@ struct Options {
 
 void declare(config::Section& section, Options& options) {
   options.process.sensor = "depth";
-  limbcast::declare(section, options.process, "source-depth");
+  limbcast::declare(section, options.process, kSecondKey);
   section.add_channel("images-channel", options.images_channel, "channel of the frames");
 }
 
@@ -73,6 +75,7 @@ int main(int argc, char** argv) {
     parser.add(section);
     if (!parser.parse(argc, argv)) return;
     require_input(options.process, "limbcast-depth-camera", /*second_will_do=*/true);
+    refuse_camera_options(options.process.source, depth_camera::kSecondKey);
     depth_camera::run(options, parser.common());
   });
 }

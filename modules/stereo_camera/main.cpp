@@ -15,6 +15,8 @@ namespace {
 /// The order of the cameras does not change while the program runs.
 constexpr std::int64_t kFramesToCheck = 3;
 
+constexpr const char* kSecondKey = "source-right";
+
 struct Options {
   SourceProcessOptions process;
   std::string images_channel = "STEREO_IMAGES";
@@ -23,7 +25,7 @@ struct Options {
 
 void declare(config::Section& section, Options& options) {
   options.process.sensor = "stereo";
-  limbcast::declare(section, options.process, "source-right");
+  limbcast::declare(section, options.process, kSecondKey);
   section.add_channel("images-channel", options.images_channel, "channel of the pairs");
   section.add_channel("calibration-channel", options.calibration_channel,
                       "channel of the calibration");
@@ -106,6 +108,7 @@ int main(int argc, char** argv) {
     parser.add(section);
     if (!parser.parse(argc, argv)) return;
     require_input(options.process, "limbcast-stereo-camera");
+    refuse_camera_options(options.process.source, stereo_camera::kSecondKey);
     stereo_camera::run(options, parser.common());
   });
 }

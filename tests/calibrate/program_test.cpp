@@ -220,6 +220,11 @@ TEST(CalibrateProgram, ExplainsWrongUsage) {
   const Outcome no_log = run_program("limbcast-calibrate", {"check", "--source", "/nowhere.log"});
   EXPECT_EQ(no_log.exit_code, 2);
   EXPECT_THAT(no_log.err, HasSubstr("/nowhere.log: does not exist"));
+  const TemporaryFolder pictures;
+  const Outcome live_options = run_program(
+      "limbcast-calibrate", {"--source", pictures.path(), "--gain", "3", "--output", "c.yml"});
+  EXPECT_EQ(live_options.exit_code, 2);
+  EXPECT_THAT(live_options.err, HasSubstr(": is a recording; leave out gain"));
 }
 
 TEST(CalibrateProgram, NamesItsCommandsWhereOneIsUnknown) {

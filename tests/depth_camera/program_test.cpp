@@ -167,6 +167,13 @@ TEST_F(DepthCameraProgram, EndsWithCode2WithoutItsDevices) {
               HasSubstr("gst:nonsense ! appsink: no element \"nonsense\""));
 }
 
+TEST_F(DepthCameraProgram, RefusesOptionsOfCamerasForARecording) {
+  EXPECT_THAT(error({"--source", folder_, "--gain", "3"}),
+              HasSubstr(": is a recording; leave out gain, which can be set for /dev/videoN only"));
+  EXPECT_THAT(error({"--source", folder_, "--source-depth", "/dev/video2"}),
+              HasSubstr(": holds all images; leave out source-depth"));
+}
+
 TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
   EXPECT_THAT(error({"--source", "/dev/video0"}), HasSubstr("--source-depth"));

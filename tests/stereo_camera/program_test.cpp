@@ -95,6 +95,26 @@ TEST_F(StereoCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", folder_}), HasSubstr("has no partner frame_1_right"));
 }
 
+TEST_F(StereoCameraProgram, RefusesOptionsOfCamerasForARecording) {
+  write_pairs(folder_, 1, 100'000);
+  const std::string log = repository_file("logs/nobody.log");
+  for (const std::string& recording : {folder_, log}) {
+    const auto error = [&](std::vector<std::string> options) {
+      options.insert(options.end(), {"--source", recording, "--calibration", calibration_});
+      const RunResult result = run(command(options));
+      EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
+      return result.output;
+    };
+    const std::string name = "limbcast-stereo-camera: " + recording;
+    EXPECT_EQ(error({"--exposure", "20", "--gain", "3", "--camera-rate", "30"}),
+              name +
+                  ": is a recording; leave out camera-rate, exposure, gain, which can be set "
+                  "for /dev/videoN only\n");
+    EXPECT_EQ(error({"--source-right", "/dev/video0"}),
+              name + ": holds all images; leave out source-right\n");
+  }
+}
+
 TEST_F(StereoCameraProgram, WritesNoLogOverWhatItReads) {
   write_pairs(folder_, 2, 100'000);
   const std::string times = folder_ + "/timestamps.csv";
