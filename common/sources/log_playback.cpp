@@ -112,6 +112,7 @@ std::string list_of(const std::set<std::string>& channels) {
 bool is_lcm_log(const std::string& source) {
   constexpr std::array<char, 4> kSyncWord = {'\xED', '\xA1', '\xDA', '\x01'};
   if (!std::filesystem::is_regular_file(source)) return false;
+  if (std::filesystem::path(source).extension() == ".log") return true;
   std::array<char, 4> head{};
   std::ifstream(source, std::ios::binary).read(head.data(), head.size());
   return head == kSyncWord;
@@ -129,8 +130,8 @@ void play_log(const std::string& module_name, const SourceProcessOptions& option
   do {
     const Round round = player.play(offset_us);
     if (round.frames == 0 && !lcm_io::stop_requested())
-      throw InputError(options.source.source + ": holds no frame on " + channels.frames + " but " +
-                       list_of(round.channels));
+      throw InputError(options.source.source + ": holds no frame on " + channels.frames +
+                       (round.channels.empty() ? "" : " but " + list_of(round.channels)));
     frames += round.frames;
     const double pause_s =
         1.0 / (options.source.rate_hz > 0.0 ? options.source.rate_hz : kDefaultRate_hz);

@@ -43,6 +43,11 @@ void visit_folder(const std::string& folder, const Take& take) {
   }
 }
 
+[[noreturn]] void fail_without_pairs(const std::string& log) {
+  throw InputError(log + ": holds no pairs on " + kImagesChannel +
+                   "; was limbcast-stereo-camera running?");
+}
+
 void visit_log(const std::string& log, const Take& take) {
   LogMessages<stereo_images_t> pairs(log, kImagesChannel);
   bool found = false;
@@ -51,7 +56,7 @@ void visit_log(const std::string& log, const Take& take) {
     const std::int64_t utime = images->stamp.utime;
     if (!take({std::to_string(utime), grey(images->left), grey(images->right), utime})) return;
   }
-  if (!found) throw InputError(log + ": holds no pairs on " + kImagesChannel);
+  if (!found) fail_without_pairs(log);
 }
 
 /// Tells what is wrong with a camera, once until it is well again.
@@ -80,6 +85,7 @@ void visit_stream(const SourceOptions& options, const Take& take) {
 StereoCalibration calibration_in(const std::string& log) {
   if (const auto calibration = LogMessages<stereo_calibration_t>(log, kCalibrationChannel).next())
     return *calibration;
+  if (!LogMessages<stereo_images_t>(log, kImagesChannel).next()) fail_without_pairs(log);
   throw InputError(log + ": holds no calibration on " + kCalibrationChannel +
                    "; give one with --calibration");
 }

@@ -209,6 +209,21 @@ TEST(CalibrateProgram, LeavesMalformedMessagesOfALogOut) {
                                        " are left out; the first: not a message of this type"));
 }
 
+TEST(CalibrateProgram, SaysThatALogHoldsNoPictures) {
+  const TemporaryFolder folder;
+  folder.write("empty.log", "");
+  lcm_io::LogWriter other(folder / "other.log");
+  other.write({1, "OTHER", {1, 2, 3}, 0});
+  other.close();
+  for (const auto& [log, reason] :
+       {std::pair("empty.log", "is empty; was the logger running?"),
+        {"other.log", "holds no pairs on STEREO_IMAGES; was limbcast-stereo-camera running?"}}) {
+    const Outcome outcome = run_program("limbcast-calibrate", {"check", "--source", folder / log});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, "limbcast-calibrate: " + folder / log + ": " + reason + "\n");
+  }
+}
+
 TEST(CalibrateProgram, ExplainsWrongUsage) {
   const Outcome no_output = run_program("limbcast-calibrate", {"--source", "/nowhere"});
   EXPECT_EQ(no_output.exit_code, 2);
