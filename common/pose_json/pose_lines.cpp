@@ -29,6 +29,9 @@ OrderedJson direction_json(const Eigen::Vector3f& direction, double steps_per_un
   return vector_json(direction, steps_per_unit);
 }
 
+const std::string kRemedy =
+    "; give a file that limbcast-export-poses wrote (with --format json, its default)";
+
 constexpr double kPositionSteps = 1e4;   // 0.1 mm
 constexpr double kDirectionSteps = 1e5;  // 0.0006 degrees
 constexpr double kShareSteps = 1e4;
@@ -141,7 +144,11 @@ std::vector<BodyPoses> read_lines(std::istream& in, const std::string& name) {
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    frames.push_back(from_line(line, name + ": line " + std::to_string(number)));
+    try {
+      frames.push_back(from_line(line, name + ": line " + std::to_string(number)));
+    } catch (const InputError& error) {
+      throw InputError(std::string(error.what()) + kRemedy);
+    }
   }
   return frames;
 }
@@ -151,8 +158,7 @@ std::vector<BodyPoses> read_file(const std::string& path) {
   const bool is_open = file.is_open();
   std::vector<BodyPoses> frames = read_lines(file, path);
   // A folder can be opened, but not read.
-  if (!is_open || file.bad())
-    throw InputError(path + ": cannot be read; give a file that limbcast-export-poses wrote");
+  if (!is_open || file.bad()) throw InputError(path + ": cannot be read" + kRemedy);
   return frames;
 }
 

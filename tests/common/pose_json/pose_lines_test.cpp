@@ -142,6 +142,14 @@ TEST(PoseLines, AreCountedWithEmptyLines) {
               testing::ThrowsMessage<InputError>(HasSubstr("f: line 3: 'persons' is missing")));
 }
 
+TEST(PoseLines, ThatAreNoneAreToldWhereTheyComeFrom) {
+  std::istringstream in("{\"utime\":1,\"persons\":[]}\n1768870000000000 nobody\n");
+  EXPECT_THAT([&] { read_lines(in, "garbage.txt"); },
+              testing::ThrowsMessage<InputError>(testing::StrEq(
+                  "garbage.txt: line 2: is no JSON; give a file that limbcast-export-poses wrote "
+                  "(with --format json, its default)")));
+}
+
 TEST(PoseLines, OfAMissingFileAreAnError) {
   EXPECT_THAT([] { read_file("/no/such/file.jsonl"); },
               testing::ThrowsMessage<InputError>(HasSubstr("/no/such/file.jsonl: cannot be read")));
