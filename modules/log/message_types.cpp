@@ -1,5 +1,6 @@
 #include "modules/log/message_types.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <limbcast/body_poses_t.hpp>
@@ -9,6 +10,7 @@
 #include <limbcast/segments_t.hpp>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
+#include <string_view>
 
 #include "common/lcm_io/decode.hpp"
 
@@ -16,6 +18,9 @@ namespace limbcast::logs {
 namespace {
 
 constexpr std::size_t kFingerprintBytes = 8;
+
+/// What LCM itself sends, on LCM_SELF_TEST, at the start of a program: no message of any type.
+constexpr std::string_view kSelfTest = "lcm self test";
 
 std::optional<stamp_t> stamp_of(const module_status_t& /*message*/) { return std::nullopt; }
 std::optional<stamp_t> stamp_of(const stereo_calibration_t& /*message*/) { return std::nullopt; }
@@ -66,6 +71,8 @@ std::optional<std::int64_t> fingerprint_of(const lcm_io::LogEvent& event) {
 }  // namespace
 
 MessageSummary summarize(const lcm_io::LogEvent& event) {
+  if (std::equal(event.data.begin(), event.data.end(), kSelfTest.begin(), kSelfTest.end()))
+    return {"LCM's self-test", {}, {}};
   const auto fingerprint = fingerprint_of(event);
   for (const KnownType& type : known_types())
     if (fingerprint == type.fingerprint) return type.summarize(event);

@@ -10,8 +10,8 @@ namespace limbcast::logs {
 
 /// What can be told of a message without knowing its channel.
 struct MessageSummary {
-  std::string type;              ///< "point_cloud_t"; empty for a type that is not ours
-  std::string malformed;         ///< why it cannot be decoded; empty where it can
+  std::string type;       ///< "point_cloud_t", "LCM's self-test"; empty for another project's
+  std::string malformed;  ///< why it cannot be decoded; empty where it can
   std::optional<stamp_t> stamp;  ///< of a message that belongs to a frame
 };
 

@@ -33,6 +33,19 @@ TEST_F(Info, TellsChannelsTypesCountsRatesAndGaps) {
   EXPECT_EQ(info.channels.at("FOREIGN").type, "0102030405060708");
 }
 
+TEST_F(Info, CallsWhatLcmSendsItselfNotForeign) {
+  {
+    lcm_io::LogWriter log(log_);
+    const std::string words = "lcm self test";
+    log.write({kBegin, "LCM_SELF_TEST", {words.begin(), words.end()}, 0});
+    log.close();
+  }
+  const LogInfo info = read_info(log_);
+  EXPECT_FALSE(info.channels.at("LCM_SELF_TEST").foreign);
+  EXPECT_EQ(info.channels.at("LCM_SELF_TEST").malformed, 0);
+  EXPECT_THAT(info_text(info), HasSubstr("LCM's self-test"));
+}
+
 TEST_F(Info, CountsLostRepeatedAndRestartedSequenceNumbersOfEachSensor) {
   {
     lcm_io::LogWriter log(log_);
