@@ -4,11 +4,8 @@
 #   DATA_DIR  folder that holds stereo_dev
 #   BIN_DIR   folder of the built programs, e.g. build/release/bin
 set -euo pipefail
-
-if [ $# -ne 2 ]; then
-  sed -n '3,5s/^# //p' "$0" >&2
-  exit 2
-fi
+source "$(dirname "$0")/../modules/usage.sh"
+check_arguments 2 2 "$@"
 data=$(realpath "$1")/stereo_dev
 bin=$(realpath "$2")
 logs=$(realpath "$(dirname "$0")")

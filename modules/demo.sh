@@ -9,6 +9,8 @@
 # Settings (environment): DEMO_OUTPUT folder for log and pictures, DEMO_RATE frames a second.
 # Exit codes: 0 done, 1 failed, 2 wrong usage or input.
 set -euo pipefail
+source "$(dirname "$0")/usage.sh"
+check_arguments 0 2 "$@"
 start_folder=$PWD
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -17,9 +19,6 @@ fail() { echo "demo: $*" >&2; exit 1; }
 refuse() { echo "demo: $*" >&2; exit 2; }
 step() { printf '\n[%s/5] %s\n' "$1" "$2"; }
 
-usage="call it as modules/demo.sh [RECORDING [CALIBRATION]]"
-case ${1:-} in -h | --help) sed -n '2,/^set -/s/^# \{0,1\}//p' "$root/modules/demo.sh"; exit 0 ;; -*) refuse "$1: there are no options; $usage" ;; esac
-[ $# -le 2 ] || refuse "$3: one argument too many; $usage"
 input=${1:-$root/logs/demo.log}
 calibration=${2:-}
 rate=${DEMO_RATE:-5}

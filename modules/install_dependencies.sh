@@ -2,6 +2,8 @@
 # Installs the Debian 12 packages that limbcast needs; does nothing where they are there.
 #   modules/install_dependencies.sh [run|test]    run (default): build and run; test: also what the tests need
 set -euo pipefail
+source "$(dirname "$0")/usage.sh"
+check_arguments 0 1 "$@"
 
 packages_run=(
   build-essential cmake ninja-build ccache git ca-certificates pkg-config
@@ -17,7 +19,11 @@ packages_test=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good)
 
 packages=("${packages_run[@]}")
-[ "${1:-run}" = test ] && packages+=("${packages_test[@]}")
+case ${1:-run} in
+  run) ;;
+  test) packages+=("${packages_test[@]}") ;;
+  *) wrong_usage "$1: give run or test" ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

@@ -3,6 +3,9 @@
 # runs every test. Ends with ctest's summary.
 #   tests/run.sh [CTEST ARGUMENTS]     e.g. tests/run.sh -R Segmenter
 set -euo pipefail
+source "$(dirname "$0")/../modules/usage.sh"
+help_if_asked "$@"
+case ${1:--} in -*) ;; *) wrong_usage "$1: is no option of ctest" ;; esac
 cd "$(dirname "$0")/.."
 
 step() { printf '\n== %s\n' "$*"; }

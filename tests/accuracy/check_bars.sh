@@ -4,6 +4,8 @@
 #   tests/accuracy/check_bars.sh [DATA_DIR]
 # DATA_DIR: default ../shared/data. Needs build/release/bin; prints each figure beside its bar.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 0 1 "$@"
 # Bars stand at the figures of one run, and fall by chance where numbers are rounded otherwise.
 export REPLAY_OPTIONS=--segmenter.portable-networks=true
 cd "$(dirname "$0")/../.."

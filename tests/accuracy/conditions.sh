@@ -4,6 +4,8 @@
 #   tests/accuracy/conditions.sh [DATA_DIR [REPLAY_OPTION...]]
 # DATA_DIR: default ../shared/data.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 0 99 "$@"
 cd "$(dirname "$0")/../.."
 data=${1:-../shared/data}
 shift || true

@@ -5,8 +5,11 @@
 # what has seen it).
 # REPLAY_OPTIONS (environment): more options of limbcast-replay, as --segmenter.portable-networks=true.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 1 3 "$@"
+case $1 in paper | refined) ;; *) wrong_usage "$1: give paper or refined" ;; esac
 cd "$(dirname "$0")/../.."
-method=${1:?method: paper or refined}
+method=$1
 data=${2:-../shared/data}
 bodies=${3:-D4,D5}
 bin=build/release/bin

@@ -3,6 +3,8 @@
 #   tests/accuracy/measure.sh [DATA_DIR [BODIES]]
 # DATA_DIR: default ../shared/data; BODIES: default D4,D5, the checking half. All figures: see figures.sh.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 0 2 "$@"
 cd "$(dirname "$0")/../.."
 out=build/accuracy
 for method in paper refined; do tests/accuracy/figures.sh "$method" "$@"; done

@@ -4,6 +4,8 @@
 #   tests/accuracy/sensors.sh [FRAMES [DATA_DIR]]
 # FRAMES: at each distance, default 12. DATA_DIR: default ../shared/data. The reports stay in build/sensors/.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 0 2 "$@"
 cd "$(dirname "$0")/../.."
 frames=${1:-12}
 data=${2:-../shared/data}

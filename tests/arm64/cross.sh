@@ -5,6 +5,8 @@
 #     FOLDER    of arm64's libraries and of what is built (default /tmp/limbcast-arm64); 4.5 GB, made where it is missing, and kept
 #     PROGRAMS  folder of the programs for x86-64 (default build/release/bin)
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 0 2 "$@"
 cd "$(dirname "$0")/../.."
 folder=$(realpath -m "${1:-/tmp/limbcast-arm64}")
 x86_64=$(realpath "${2:-build/release/bin}")

@@ -25,8 +25,8 @@ class Demo : public ::testing::Test {
 };
 
 TEST_F(Demo, RefusesWrongArguments) {
-  const std::string usage = "; call it as modules/demo.sh [RECORDING [CALIBRATION]]\n";
-  EXPECT_EQ(refusal_of("--fast"), "demo: --fast: there are no options" + usage);
+  const std::string usage = "; see " + demo_ + " --help\n";
+  EXPECT_EQ(refusal_of("--fast"), "demo: --fast: there is no such option" + usage);
   EXPECT_EQ(refusal_of("a b c"), "demo: c: one argument too many" + usage);
 }
 

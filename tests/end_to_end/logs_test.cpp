@@ -20,12 +20,15 @@ std::string bytes_of(const std::string& path) {
 TEST(LogsOfTheRepository, AreMadeAgainByteForByte) {
   const std::string data = LIMBCAST_DATA_DIR;
   if (!fs::exists(data + "/stereo_dev")) GTEST_SKIP() << data << " is absent";
-  const std::string folder = temporary_folder("logs");
-  const std::string script = folder + "/make_logs.sh";  // writes beside itself
-  fs::copy_file(repository_file("logs/make_logs.sh"), script);
+  const std::string copy = temporary_folder("repository");
+  const std::string folder = copy + "/logs";  // the script writes beside itself
+  for (const std::string file : {"logs/make_logs.sh", "modules/usage.sh"}) {
+    fs::create_directories(fs::path(copy + "/" + file).parent_path());
+    fs::copy_file(repository_file(file), copy + "/" + file);
+  }
 
   const std::string programs = fs::path(program("limbcast-stereo-camera")).parent_path();
-  const RunResult result = run({"bash", script, data, programs});
+  const RunResult result = run({"bash", folder + "/make_logs.sh", data, programs});
 
   ASSERT_EQ(result.exit_code, 0) << result.output;
   for (const char* name : {"demo.log", "multi.log", "nobody.log"}) {

@@ -5,10 +5,8 @@
 #     PACKAGES  folder with the .deb files that cpack made
 #     ROOT      folder of the bare system (default /tmp/limbcast-bare-debian); made where it is missing, and kept
 set -euo pipefail
-if [ $# -lt 1 ]; then
-  echo "usage: tests/packages/bare_debian.sh PACKAGES [ROOT]; PACKAGES is the folder with the .deb files of cpack" >&2
-  exit 2
-fi
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 1 2 "$@"
 packages=$(realpath "$1")
 root=${2:-/tmp/limbcast-bare-debian}
 repository=$(realpath "$(dirname "$0")/../..")

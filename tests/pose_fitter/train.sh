@@ -8,8 +8,10 @@
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 2 3 "$@"
 cd "$(dirname "$0")/../.."
-simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
+simulated=$(realpath -m "$1") data=$(realpath "$2") bin=${3:-build/release/bin}
 source tests/support/simulated_sets.sh
 
 # Directions come from people who point, also farther off than any recording, and at a desk.

@@ -3,6 +3,8 @@
 # every frame, person, joint and direction, and the accuracy before and after. Look at it before committing.
 # Usage: tests/replay/update_golden.sh [BIN_DIR]   default: build/release/bin
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 0 1 "$@"
 cd "$(dirname "$0")/../.."
 bin=${1:-build/release/bin}
 golden=tests/replay/golden

@@ -9,8 +9,10 @@
 #   BIN_DIR         default: build/release/bin
 # Run it after the matcher, the lattice, the template or the growing changed.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 2 3 "$@"
 cd "$(dirname "$0")/../.."
-simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
+simulated=$(realpath -m "$1") data=$(realpath "$2") bin=${3:-build/release/bin}
 source tests/support/simulated_sets.sh
 
 # Pairs, matched by the reconstructor as it is.

@@ -9,8 +9,10 @@
 #   BIN_DIR         default: build/release/bin
 # Run it after segments or range images changed. Training takes an hour and a half on two cores without AMX.
 set -euo pipefail
+source "$(dirname "$0")/../../modules/usage.sh"
+check_arguments 2 3 "$@"
 cd "$(dirname "$0")/../.."
-simulated=$(realpath -m "${1:?SIMULATED_DIR}") data=$(realpath "${2:?DATA_DIR}") bin=${3:-build/release/bin}
+simulated=$(realpath -m "$1") data=$(realpath "$2") bin=${3:-build/release/bin}
 source tests/support/simulated_sets.sh
 
 gray=(--color=false) far=(--max-distance-m 5) near=(--max-distance-m 4.5) children=(--child-share 0.2)

@@ -3,6 +3,8 @@
 # and python3-numpy.
 #   modules/segmenter/models/fetch.sh [FOLDER]    FOLDER: where they are written (default: beside this script)
 set -euo pipefail
+source "$(dirname "$0")/../../usage.sh"
+check_arguments 0 1 "$@"
 here=$(realpath "$(dirname "$0")")
 out=$(realpath "${1:-$here}")
 work=$(mktemp -d)
