@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/common/codec_messages.hpp"
+#include "tests/common/codec/codec_messages.hpp"
 #include "tests/common/infinite_numbers.hpp"
 
 namespace limbcast::lcm_io {

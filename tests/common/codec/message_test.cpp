@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tests/common/codec_messages.hpp"
+#include "tests/common/codec/codec_messages.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
