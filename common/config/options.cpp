@@ -254,6 +254,16 @@ void Parser::print_help(std::ostream& out) const {
   out << "  --help, --version\n";
 }
 
+namespace {
+
+/// "/data/run: Permission denied; check its name and permissions".
+std::string text_of(const std::filesystem::filesystem_error& error) {
+  return error.path1().string() + ": " + error.code().message() +
+         "; check its name and permissions";
+}
+
+}  // namespace
+
 int run_program(const std::string& program, const std::function<void()>& body) {
   constexpr int kFailedAtRunTime = 1;
   constexpr int kWrongUsage = 2;
@@ -265,6 +275,9 @@ int run_program(const std::string& program, const std::function<void()>& body) {
     return 0;
   } catch (const InputError& error) {
     log_failure(program, error.what());
+    return kWrongUsage;
+  } catch (const std::filesystem::filesystem_error& error) {
+    log_failure(program, text_of(error));
     return kWrongUsage;
   } catch (const std::exception& error) {
     log_failure(program, error.what());

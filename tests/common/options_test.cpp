@@ -5,9 +5,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "tests/support/temporary_folder.hpp"
@@ -180,6 +182,17 @@ TEST(RunProgram, TellsWrongUsageFromFailure) {
   EXPECT_EQ(run_program("p", [] {}), 0);
   EXPECT_EQ(run_program("p", [] { throw std::runtime_error("disk full"); }), 1);
   EXPECT_EQ(run_program("p", [] { throw UsageError("no such file"); }), 2);
+}
+
+TEST(RunProgram, NamesAFolderThatMayNotBeRead) {
+  testing::internal::CaptureStderr();
+  const int code = run_program("p", [] {
+    throw std::filesystem::filesystem_error("directory iterator cannot open directory", "/locked",
+                                            make_error_code(std::errc::permission_denied));
+  });
+  EXPECT_EQ(code, 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "p: /locked: Permission denied; check its name and permissions\n");
 }
 
 TEST(RunProgram, FailsWhereItsOutputCannotBeWritten) {
