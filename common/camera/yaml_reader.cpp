@@ -1,9 +1,11 @@
 #include "common/camera/yaml_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 #include "common/config/byte_order_mark.hpp"
 #include "common/input_error.hpp"
@@ -41,22 +43,35 @@ void append_numbers(const cv::FileNode& node, std::vector<double>& numbers) {
   }
 }
 
+std::string count_text(std::size_t count) { return "has " + std::to_string(count) + " numbers"; }
+
 std::string size_text(const cv::FileNode& node, std::size_t count) {
   if (!node.isMap() || !node["rows"].isInt() || !node["cols"].isInt()) {
-    return "has " + std::to_string(count) + " numbers";
+    return count_text(count);
   }
   return "is " + std::to_string(static_cast<int>(node["rows"])) + " x " +
          std::to_string(static_cast<int>(node["cols"]));
 }
 
+/// "line 6: Tabs are prohibited in YAML!". OpenCV 4.6 hands on "(6): ..." in the place of the
+/// function; `lines_before` are those that the file does not have.
+std::string reason_of(const cv::Exception& error, std::ptrdiff_t lines_before) {
+  static const std::regex located("\\(([0-9]+)\\): (.*)");
+  std::smatch parts;
+  if (!std::regex_match(error.func, parts, located)) return error.err;
+  return "line " + std::to_string(std::stol(parts[1]) - lines_before) + ": " + parts[2].str();
+}
+
 }  // namespace
 
 YamlReader::YamlReader(const std::string& path) : path_(path) {
-  const std::string text = with_opencv_header(read_text(path));
+  const std::string own = read_text(path);
+  const std::string text = with_opencv_header(own);
   try {
     storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   } catch (const cv::Exception& error) {
-    throw InputError(path + ": is no valid YAML (" + error.err +
+    const auto lines = [](const std::string& of) { return std::count(of.begin(), of.end(), '\n'); };
+    throw InputError(path + ": is no valid YAML (" + reason_of(error, lines(text) - lines(own)) +
                      "); calibrate again or copy it again");
   }
   if (!storage_.isOpened() || !storage_.root().isMap()) {
@@ -122,7 +137,7 @@ Eigen::MatrixXd YamlReader::matrix(const std::string& key, int rows, int cols) c
                                          static_cast<int>(value["cols"]) == cols);
   if (!size_right ||
       values.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
-    fail(key, size_text(value, values.size()),
+    fail(key, size_right ? count_text(values.size()) : size_text(value, values.size()),
          "must be " + std::to_string(rows) + " x " + std::to_string(cols));
   }
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

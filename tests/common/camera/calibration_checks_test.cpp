@@ -166,6 +166,21 @@ TEST_F(StereoCalibrationCheck, RefusesARotationThatIsNotSquare) {
               HasSubstr("'R' is 3 x 1; must be 3 x 3"));
 }
 
+TEST_F(StereoCalibrationCheck, CountsTheNumbersOfAMatrixThatTellsTheRightSize) {
+  EXPECT_THAT(error_with("R", matrix(3, 3, "1., 0.")),
+              HasSubstr("'R' has 2 numbers; must be 3 x 3"));
+}
+
+TEST_F(StereoCalibrationCheck, TellsTheLineThatIsNoYaml) {
+  const auto error = [this](const std::string& text) {
+    return error_of<InputError>([&] { read_stereo_calibration(folder_.write("c.yml", text)); });
+  };
+  EXPECT_THAT(
+      error("%YAML:1.0\n---\nK1:\n\t- 5\n"),
+      HasSubstr("c.yml: is no valid YAML (line 4: Tabs are prohibited in YAML!); calibrate"));
+  EXPECT_THAT(error("K1:\n\t- 5\n"), HasSubstr("(line 2: Tabs are prohibited"));
+}
+
 TEST_F(StereoCalibrationCheck, RefusesNumbersThatAreNotFinite) {
   EXPECT_THAT(error_with("K1", matrix(3, 3, ".Nan, 0., 320., 0., 501., 240., 0., 0., 1.")),
               HasSubstr("'K1' holds a value that is no finite number"));
