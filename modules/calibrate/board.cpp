@@ -119,6 +119,13 @@ std::optional<BoardPoints> find_charuco(const cv::Mat& grey, const Board& board)
   return points;
 }
 
+/// OpenCV's detectors throw on smaller pictures than can show a board.
+bool can_show(const cv::Mat& grey, const Board& board) {
+  constexpr int kLeastSquare_px = 4;
+  return std::min(grey.cols, grey.rows) >=
+         kLeastSquare_px * (std::min(board.columns, board.rows) + 1);
+}
+
 cv::Mat draw_squares(const Board& board, int square_px) {
   cv::Mat image((board.rows + 1) * square_px, (board.columns + 1) * square_px, CV_8UC1,
                 cv::Scalar(255));
@@ -190,6 +197,7 @@ Board to_board(const BoardOptions& options) {
 }
 
 std::optional<BoardPoints> find_board(const cv::Mat& grey, const Board& board) {
+  if (!can_show(grey, board)) return std::nullopt;
   switch (board.kind) {
     case BoardKind::kCircles:
       return find_circles(grey, board);
@@ -202,11 +210,13 @@ std::optional<BoardPoints> find_board(const cv::Mat& grey, const Board& board) {
 }
 
 std::optional<BoardPoints> glimpse_board(const cv::Mat& grey, const Board& board) {
+  if (!can_show(grey, board)) return std::nullopt;
   if (board.kind != BoardKind::kChessboard) return find_board(grey, board);
   constexpr int kLargestWidth_px = 640;
   const double scale = std::min(1.0, static_cast<double>(kLargestWidth_px) / grey.cols);
   cv::Mat small;
   cv::resize(grey, small, {}, scale, scale, cv::INTER_AREA);
+  if (!can_show(small, board)) return std::nullopt;
   constexpr int kFlags =
       cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK;
   std::vector<cv::Point2f> corners;

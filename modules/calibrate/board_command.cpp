@@ -17,9 +17,36 @@ struct DrawingParams {
   /// Side of a square below which no board is drawn [px]. A ChArUco marker of 6 x 6 with its border
   /// has 8 cells on 0.7 of a square; 16 px leave each more than one pixel.
   int min_square_px = 16;
+  /// What OpenCV reads at most; 1 GB.
+  double max_pixels = 1 << 30;
 };
 
 bool is_pdf(const std::string& path) { return std::filesystem::path(path).extension() == ".pdf"; }
+
+void check_ending(const std::string& path) {
+  if (!is_pdf(path) && std::filesystem::path(path).extension() != ".png")
+    throw config::UsageError(path +
+                             ": boards are drawn as .pdf or .png; give --output such an ending");
+}
+
+/// The side of a square.
+int square_pixels(const BoardOptions& options, double dots_per_inch) {
+  constexpr double kMillimetresPerInch = 25.4;
+  const DrawingParams params;
+  const int square_px = cvRound(options.square_mm * dots_per_inch / kMillimetresPerInch);
+  if (square_px < params.min_square_px)
+    throw config::UsageError(
+        formatted("a square has %d pixels, must be at least %d; raise 'dpi' or 'square-mm'",
+                  square_px, params.min_square_px));
+  // With the squares outside the inner corners and the margin.
+  const double pixels =
+      static_cast<double>(options.columns + 2) * square_px * (options.rows + 2) * square_px;
+  if (pixels > params.max_pixels)
+    throw config::UsageError(
+        formatted("the board has %.3g pixels, must be at most %.3g; lower 'dpi' or 'square-mm'",
+                  pixels, params.max_pixels));
+  return square_px;
+}
 
 /// What those who find the sheet later need for --board, --columns, --rows and --square-mm.
 std::string caption_of(const BoardOptions& options) {
@@ -30,7 +57,7 @@ std::string caption_of(const BoardOptions& options) {
 }  // namespace
 
 bool run_board(int argc, const char* const* argv) {
-  constexpr double kMillimetres = 1e3, kMillimetresPerInch = 25.4;
+  constexpr double kMillimetres = 1e3;
   BoardOptions options;
   std::string output;
   std::string paper = "a4";
@@ -47,14 +74,10 @@ bool run_board(int argc, const char* const* argv) {
   config::configure_log("calibrate", parser.common().log_level);
   if (output.empty()) throw config::UsageError("--output is missing; see --help");
   config::check_output_file("--output", output);
+  check_ending(output);
 
   const Board board = to_board(options);
-  const int square_px = cvRound(options.square_mm * dots_per_inch / kMillimetresPerInch);
-  const DrawingParams params;
-  if (square_px < params.min_square_px)
-    throw config::UsageError(
-        formatted("a square has %d pixels, must be at least %d; raise 'dpi' or 'square-mm'",
-                  square_px, params.min_square_px));
+  const int square_px = square_pixels(options, dots_per_inch);
   const double pixels_per_m = square_px / board.square_m;
   const cv::Mat image = draw_board(board, square_px);
   if (is_pdf(output)) {

@@ -26,8 +26,10 @@ bool run_check(int argc, const char* const* argv) {
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
 
-  CalibrationCheck check(find_calibration(calibration, source.source), to_board(board));
+  const StereoCalibration cameras = find_calibration(calibration, source.source);
+  CalibrationCheck check(cameras, to_board(board));
   visit_pairs(source, [&](const GreyPair& pair) {
+    check_sizes(pair, cameras);
     check.add(pair);
     return check.result().pairs < max_pairs;
   });

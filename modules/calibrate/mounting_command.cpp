@@ -45,6 +45,7 @@ void complete_stereo(const MountingOptions& options) {
   const reconstructor::StereoReconstructor reconstructor(calibration, without_ground());
   MountingFinder finder;
   visit_pairs(options.source, [&](const GreyPair& pair) {
+    check_sizes(pair, calibration);
     finder.add(reconstructor.reconstruct({{}, pair.left, pair.right}));
     return finder.frames() < options.max_frames;
   });

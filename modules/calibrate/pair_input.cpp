@@ -5,10 +5,12 @@
 #include <limbcast/stereo_images_t.hpp>
 #include <opencv2/imgproc.hpp>
 #include <regex>
+#include <tuple>
 
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/encoded_image.hpp"
 #include "common/config/log.hpp"
+#include "common/formatted.hpp"
 #include "common/lcm_io/module.hpp"
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
@@ -146,6 +148,17 @@ std::vector<std::string> pictures_read(const SourceOptions& source) {
       paths.push_back(file.path().string());
   }
   return paths;
+}
+
+void check_sizes(const GreyPair& pair, const StereoCalibration& calibration) {
+  for (const auto& [name, image, lens] : {std::tuple("left", &pair.left, &calibration.left.camera),
+                                          {"right", &pair.right, &calibration.right.camera}}) {
+    if (image->cols == lens->width && image->rows == lens->height) continue;
+    throw InputError(pair.name + ": the " + name + " image is " +
+                     size_text(image->cols, image->rows) + ", the calibration is for " +
+                     size_text(lens->width, lens->height) +
+                     "; give the calibration of this camera and image size");
+  }
 }
 
 StereoCalibration find_calibration(const std::string& path, const std::string& source) {

@@ -35,6 +35,9 @@ void visit_source(const SourceOptions& options, const PairFormat& format,
 /// used, std::runtime_error where the program is told to end.
 void visit_pairs(const SourceOptions& options, const std::function<bool(const GreyPair&)>& take);
 
+/// Throws InputError where an image has another size than the calibration is for.
+void check_sizes(const GreyPair& pair, const StereoCalibration& calibration);
+
 /// The calibration of `path`; without a path the one that an LCM log carries. Throws InputError
 /// where there is none.
 StereoCalibration find_calibration(const std::string& path, const std::string& source);

@@ -44,6 +44,23 @@ TEST(CalibrateProgram, DrawsABoardOfTrueSizeThatIsFound) {
   EXPECT_NEAR(pixels_per_m * 0.02, square_px, 0.05);
 }
 
+TEST(CalibrateProgram, RefusesBoardsThatNobodyCouldPrint) {
+  const TemporaryFolder folder;
+  const auto error = [&folder](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "board");
+    const Outcome outcome = run_program("limbcast-calibrate", arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.err;
+  };
+  EXPECT_EQ(error({"--output", folder / "board.docx"}),
+            "limbcast-calibrate: " + folder / "board.docx" +
+                ": boards are drawn as .pdf or .png; give --output such an ending\n");
+  // 9 + 2 by 6 + 2 squares of 11811 px.
+  EXPECT_EQ(error({"--square-mm", "1000", "--output", folder / "board.png"}),
+            "limbcast-calibrate: the board has 1.23e+10 pixels, must be at most 1.07e+09; lower "
+            "'dpi' or 'square-mm'\n");
+}
+
 /// A PDF as poppler shows it.
 class BoardOnPaper : public ::testing::Test {
  protected:

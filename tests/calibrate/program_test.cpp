@@ -224,6 +224,38 @@ TEST(CalibrateProgram, SaysThatALogHoldsNoPictures) {
   }
 }
 
+TEST(CalibrateProgram, NamesAPairThatIsNotOfTheCalibrationsSize) {
+  const TemporaryFolder folder;
+  write_pair(folder, {"a", cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)),
+                      cv::Mat(48, 64, CV_8UC1, cv::Scalar(90))});
+  const std::string file = folder / "any.yml";
+  write_stereo_calibration(file, true_cameras());
+  for (std::vector<std::string> arguments :
+       {std::vector<std::string>{"check"}, {"mounting", "--output", folder / "out.yml"}}) {
+    arguments.insert(arguments.end(), {"--source", folder.path(), "--calibration", file});
+    const Outcome outcome = run_program("limbcast-calibrate", arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err,
+              "limbcast-calibrate: a: the left image is 64x48, the calibration is for 640x480; "
+              "give the calibration of this camera and image size\n");
+  }
+}
+
+TEST(CalibrateProgram, FindsNoBoardInPicturesOfAFewPixels) {
+  for (const cv::Size& size : {cv::Size(1, 1), {8, 8}, {1000, 2}, {2, 1000}}) {
+    const TemporaryFolder folder;
+    const cv::Mat dot(size, CV_8UC1, cv::Scalar(90));
+    write_pair(folder, {"a", dot, dot});
+    for (const char* kind : {"chessboard", "circles", "charuco"}) {
+      const Outcome outcome =
+          run_program("limbcast-calibrate",
+                      {"--source", folder.path(), "--board", kind, "--output", folder / "c.yml"});
+      EXPECT_EQ(outcome.exit_code, 1);
+      EXPECT_THAT(outcome.out, ::testing::ContainsRegex("a +rejected: board not found"));
+    }
+  }
+}
+
 TEST(CalibrateProgram, ExplainsWrongUsage) {
   const Outcome no_output = run_program("limbcast-calibrate", {"--source", "/nowhere"});
   EXPECT_EQ(no_output.exit_code, 2);
