@@ -40,6 +40,7 @@ FramePair FolderSource::read(const RecordedFrame& recorded) const {
       coded_for_sending(std::move(frame.first), format_.jpeg_quality, recorded.first_path);
   frame.second =
       coded_for_sending(std::move(frame.second), format_.jpeg_quality, recorded.second_path);
+  frame.second_name = recorded.second_path;
 
   frame.stamp.utime = recorded.time.utime + loop_offset_us_;
   frame.stamp.sequence = sequence_;

@@ -18,6 +18,8 @@ struct FramePair {
   Stamp stamp;
   EncodedImage first, second;      ///< first: empty of a depth camera without colour
   std::optional<BodyPoses> truth;  ///< where a recording holds it
+  /// For errors: the file of a folder.
+  std::string second_name = "second image";
 };
 
 /// How the two images of a sensor are named and must look.

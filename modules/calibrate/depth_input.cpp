@@ -49,7 +49,7 @@ void visit_frames(const SourceOptions& options, const DepthCalibration& calibrat
   if (calibration.depth_camera) registration.emplace(calibration);
   visit_source(options, depth_camera::frame_format(calibration), [&](const FramePair& frame) {
     DepthImages images;
-    images.depth = decode_image(frame.second, "depth image");
+    images.depth = decode_image(frame.second, frame.second_name);
     if (registration) images.depth = registration->registered(images.depth);
     return take(images);
   });

@@ -37,8 +37,9 @@ depth_images_t to_message(const FramePair& frame, const DepthCalibration& calibr
   message.mounting = lcm_io::to_message(calibration.mounting);
   message.color = lcm_io::to_message(frame.first);
   message.depth = lcm_io::to_message(
-      registration ? encode_png(registration->registered(decode_image(frame.second, "depth image")))
-                   : frame.second);
+      registration
+          ? encode_png(registration->registered(decode_image(frame.second, frame.second_name)))
+          : frame.second);
   return message;
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/depth_images_t.hpp>
 
@@ -112,6 +113,18 @@ TEST_F(DepthCameraProgram, RefusesDepthOfAnotherSizeThanItsCalibrations) {
   std::ofstream(calibration_, std::ios::app) << kDepthLens;
   EXPECT_THAT(error({"--source", folder_}),
               HasSubstr("the depth image is 64x48, the calibration is for 32x24"));
+}
+
+TEST_F(DepthCameraProgram, NamesADepthPictureThatCannotBeDecoded) {
+  std::ofstream(calibration_, std::ios::app) << kDepthLens;
+  EncodedImage damaged = encode_png(cv::Mat(24, 32, CV_16UC1, cv::Scalar(4000)));
+  const std::string data = "IDAT";
+  const auto at = std::search(damaged.bytes.begin(), damaged.bytes.end(), data.begin(), data.end());
+  ASSERT_LT(at, damaged.bytes.end() - 8);
+  std::fill_n(at + 4, 4, 0xFF);
+  test::write_bytes(folder_ + "/a_depth.png", damaged);
+  EXPECT_THAT(error({"--source", folder_}),
+              HasSubstr("limbcast-depth-camera: " + folder_ + "/a_depth.png: cannot be decoded"));
 }
 
 std::string pipeline(const std::string& format) {
