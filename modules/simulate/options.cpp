@@ -15,6 +15,18 @@ std::vector<std::string> posture_choices() {
   return choices;
 }
 
+/// What would say nothing to the set or to the output that was chosen.
+void refuse_idle_options(const SimulateOptions& options) {
+  const bool poses = options.set == "general" || options.set == "multi";
+  if (options.posture != "any" && !poses)
+    throw config::UsageError("--posture is of the sets general and multi, not of " + options.set);
+  if (options.motion != "any" && options.set != "sequence")
+    throw config::UsageError("--motion is of the set sequence, not of " + options.set);
+  const bool live = options.output.empty() && options.log.empty();
+  if (options.loop && !live)
+    throw config::UsageError("--loop is of live frames; leave it out with --output or --log");
+}
+
 }  // namespace
 
 void declare(config::Section& section, SimulateOptions& options) {
@@ -37,7 +49,7 @@ void declare(config::Section& section, SimulateOptions& options) {
   section.add_choice("noise", options.noise, {"varied", "fixed"},
                      "another device with every frame, or a mean one");
   section.add_choice("posture", options.posture, posture_choices(),
-                     "of everybody in the set general");
+                     "of everybody in the set general; in multi of those who do not point");
   section.add_choice("motion", options.motion,
                      {"any", "walk-point", "wave", "point-around", "sit-down"},
                      "of everybody in the set sequence");
@@ -111,6 +123,7 @@ SimulatorParams to_params(const SimulateOptions& options) {
   if (!options.output.empty() && !options.log.empty()) {
     throw config::UsageError("--output and --log exclude one another: give one of them");
   }
+  refuse_idle_options(options);
   if (options.sensor_name.empty()) throw config::UsageError("--sensor-name must not be empty");
   if (params.scenario.min_distance_m >= params.scenario.max_distance_m) {
     throw config::UsageError("--min-distance-m must be less than --max-distance-m");

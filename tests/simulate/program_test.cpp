@@ -91,6 +91,21 @@ TEST_P(SimulateProgram, PublishesItsFramesAndTheirTruthLive) {
   EXPECT_EQ(simulate.wait(), 0) << simulate.output();
 }
 
+TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {
+  const auto error = [](const std::vector<std::string>& options) {
+    const RunResult result = run(command("depth", options));
+    EXPECT_EQ(result.exit_code, 2);
+    return result.output;
+  };
+  const std::string folder = temporary_folder("usage") + "/out";
+  EXPECT_EQ(error({"--output", folder, "--set", "pointing", "--posture", "T"}),
+            "limbcast-simulate: --posture is of the sets general and multi, not of pointing\n");
+  EXPECT_EQ(error({"--output", folder, "--set", "general", "--motion", "wave"}),
+            "limbcast-simulate: --motion is of the set sequence, not of general\n");
+  EXPECT_EQ(error({"--output", folder, "--loop"}),
+            "limbcast-simulate: --loop is of live frames; leave it out with --output or --log\n");
+}
+
 INSTANTIATE_TEST_SUITE_P(Sensors, SimulateProgram, ::testing::Values("stereo", "depth", "laser"),
                          [](const auto& sensor) { return std::string(sensor.param); });
 
