@@ -72,12 +72,24 @@ TEST(FrontTerm, MindsATrunkTurnedAgainstTheDepths) {
   Segment segment = testing::seen(testing::standing_body(2.5, 0.0));
   segment.image_poses = testing::in_depths(testing::standing_body(2.5, 90.0 * kDegree));
   const auto observation = refined::observe(segment, testing::stamp(), params);
-  const double most = params.front_cost_per_log_odds * params.image_side_log_odds;
+  const double most =
+      params.front_cost_per_log_odds * (params.image_side_log_odds + params.depth_side_log_odds);
   const auto cost_at = [&](double yaw_deg) {
     return front_cost(testing::standing_body(2.5, yaw_deg * kDegree), *observation, params);
   };
   EXPECT_NEAR(cost_at(90.0), 0.0, 0.01);
   EXPECT_NEAR(cost_at(-90.0), most, 0.01 * most);
+}
+
+TEST(FrontTerm, MindsLeftWhereTheDepthsShowRight) {
+  const RefinedParams params;
+  const BodyState body = testing::standing_body(2.5, 0.0);
+  Segment segment = testing::colored(testing::seen(body));
+  segment.image_poses = testing::in_depths(body);
+  const auto observation = refined::observe(segment, testing::stamp(), params);
+  EXPECT_NEAR(front_cost(body, *observation, params), 0.0, 0.01);
+  EXPECT_NEAR(front_cost(front_back_flipped(body), *observation, params),
+              params.front_cost_per_log_odds * params.depth_side_log_odds, 0.01);
 }
 
 TEST(FrontTerm, MindsATrunkTurnedAgainstTheImage) {

@@ -54,5 +54,35 @@ TEST(JointsSeenInDepths, CountMoreWhereNoColorsTellThemToo) {
   EXPECT_NEAR(counted_visibility_of_wrist(0.64F, false), 0.8, 1e-6);
 }
 
+/// What a network tells of an arm that it marks for the right one too, from the elbow or from the
+/// wrist on.
+class OneArmMarkedTwice : public ::testing::Test {
+ protected:
+  Real visibility_of_wrist(ImageNetwork network, int first_joint_alike) {
+    const BodyState body = testing::standing_body(2.5, 0.0);
+    Segment segment = testing::colored(testing::seen(body));
+    segment.image_poses.resize(kImageNetworkCount);
+    ImagePose& pose = segment.image_poses.at(static_cast<std::size_t>(network));
+    pose = testing::in_image(body, network);
+    for (int joint = first_joint_alike; joint < kHip; joint += 2)
+      pose.joints.at(joint + 1).px = pose.joints.at(joint).px + Eigen::Vector2f(2.0F, 2.0F);
+    const auto observation = observe(segment, testing::stamp(), RefinedParams{});
+    return observation.value().looks.at(0).joints.at(kWrist).visibility;
+  }
+};
+
+TEST_F(OneArmMarkedTwice, TellsNothing) {
+  for (const ImageNetwork network : {ImageNetwork::kBlazePose, ImageNetwork::kMoveNet})
+    EXPECT_EQ(visibility_of_wrist(network, kElbow), 0.0);
+}
+
+TEST_F(OneArmMarkedTwice, IsNoneWhereHandsMeet) {
+  EXPECT_EQ(visibility_of_wrist(ImageNetwork::kMoveNet, kWrist), 1.0);
+}
+
+TEST_F(OneArmMarkedTwice, CountsWhereDepthsTellOfHiddenArms) {
+  EXPECT_EQ(visibility_of_wrist(ImageNetwork::kDepthPose, kElbow), 1.0);
+}
+
 }  // namespace
 }  // namespace limbcast::pose_fitter::refined

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "modules/pose_fitter/refined/cost.hpp"
+#include "modules/pose_fitter/refined/image_term.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -68,6 +69,17 @@ Real image_disagreement(const Vec3& front, const View& view, const Observation& 
   return sum;
 }
 
+/// What speaks against a body whose left the network of depths sees on the right.
+Real depth_disagreement(const BodyState& body, const Observation& observation,
+                        const RefinedParams& params) {
+  for (const ImageLook& look : observation.looks) {
+    if (look.network == ImageNetwork::kDepthPose &&
+        takes_sides_otherwise(body, look, kAllParts, params))
+      return params.depth_side_log_odds;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 Real face_agreement(const Vec3& front, const Observation& observation) {
@@ -84,7 +96,8 @@ Real front_cost(const BodyState& body, const Observation& observation,
   const Vec3 front = body.front();
   return params.front_cost_per_log_odds *
          (face_disagreement(front, view, observation.face) +
-          image_disagreement(front, view, observation, params.image_side_log_odds));
+          image_disagreement(front, view, observation, params.image_side_log_odds) +
+          depth_disagreement(body, observation, params));
 }
 
 }  // namespace limbcast::pose_fitter::refined

@@ -150,6 +150,20 @@ void find_skin(const RangeImage& image, const Box& box, Observation& observation
   observation.skin_distance_px = chamfer_distance(no_skin, camera.width, camera.height);
 }
 
+/// How far apart a network marks the joints of both sides, at a distance.
+Real apart_m(const ImageLook& look, int left_joint, Real distance_m) {
+  return distance_m * look.joints[left_joint].ray.cross(look.joints[left_joint + 1].ray).norm();
+}
+
+/// Somebody's seen arm, marked for the hidden one too, says nothing of where that one is.
+void leave_out_one_arm_marked_twice(Real distance_m, const RefinedParams& params, ImageLook& look) {
+  if (look.network == ImageNetwork::kDepthPose) return;  // it tells of hidden arms, too
+  if (apart_m(look, kElbow, distance_m) > params.image_one_arm_m ||
+      apart_m(look, kWrist, distance_m) > params.image_one_arm_m)
+    return;
+  for (int joint = kElbow; joint < kHip; ++joint) look.joints[joint].visibility = 0.0;
+}
+
 void set_looks(const Segment& segment, const RangeImage& image, const RefinedParams& params,
                Observation& observation) {
   observation.has_colors = !image.is_skin.empty();
@@ -172,6 +186,7 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
           std::max<Real>(least_visibility, std::pow(joint.visibility, exponent)),
           joint.behind_hips_m, joint.visibility};
     }
+    leave_out_one_arm_marked_twice(observation.head_start.norm(), params, look);
     observation.looks.push_back(look);
   }
 }
