@@ -56,8 +56,9 @@ struct HeadShapeParams {
   /// Candidates nearer than this to a better one are left out [m]. A hand beside a head must not
   /// hide it.
   float separation_m = 0.14F;
-  /// Strongest candidates kept in a frame.
-  int max_candidates = 80;
+  /// Strongest candidates kept in a frame. A dense scan of a furnished room has up to 300; of 80
+  /// people of groups before one were not among them.
+  int max_candidates = 400;
 };
 
 /// The trained classifiers (head_classifier.hpp).

@@ -29,12 +29,12 @@ class Picture {
     lattice_.depth_m.assign(kViewWidth * kViewHeight, kWall_m);
   }
 
-  /// A flat head and shoulders, `right_m` of the optical axis.
-  Picture& draw_person(float right_m, float depth_m) {
+  /// A flat head and shoulders, `right_m` and `down_m` of the optical axis.
+  Picture& draw_person(float right_m, float depth_m, float down_m = 0.0F, float trunk_m = 0.63F) {
     for_each_pixel([&](float x, float y, float& z) {
-      const float right = x * depth_m - right_m, down = y * depth_m;
+      const float right = x * depth_m - right_m, down = y * depth_m - down_m;
       const bool head = std::hypot(right / 0.08F, down / 0.12F) < 1.0F;
-      const bool trunk = std::abs(right) < 0.22F && down > 0.17F && down < 0.8F;
+      const bool trunk = std::abs(right) < 0.22F && down > 0.17F && down < 0.17F + trunk_m;
       if (head || trunk) z = std::min(z, depth_m);
     });
     return *this;
@@ -91,6 +91,18 @@ TEST(HeadShape, FindsNoneOnABareWall) { EXPECT_TRUE(find_heads(Picture().lattice
 TEST(HeadShape, FindsAHeadOfWhichAThirdIsHiddenBySomethingNearer) {
   const Lattice lattice = Picture().draw_person(0.0F, 3.0F).draw_board(-0.018F, 2.0F).lattice();
   EXPECT_TRUE(finds_head_at(lattice, 0.0F, 3.0F));
+}
+
+TEST(HeadShape, FindsAHeadAmongManyThingsThatLookMoreLikeOne) {
+  Picture picture;
+  int things = 0;
+  for (float down_m = -2.0F; down_m < 2.0F; down_m += 0.6F) {
+    for (float right_m = -2.8F; right_m < 2.9F; right_m += 0.46F, ++things)
+      picture.draw_person(right_m, 5.0F, down_m, 0.22F);
+  }
+  ASSERT_GT(things, 80);
+  // Its shoulders are out of sight.
+  EXPECT_TRUE(finds_head_at(picture.draw_person(0.2F, 4.0F, 0.0F, 0.0F).lattice(), 0.2F, 4.0F));
 }
 
 TEST(HeadShape, RefusesAHeadWhereTheSensorsNoiseIsLargerThanItsRelief) {
