@@ -44,9 +44,10 @@ INSTANTIATE_TEST_SUITE_P(
                       "modules/segmenter/models/fetch.sh", "tests/accuracy/check_bars.sh",
                       "tests/accuracy/conditions.sh", "tests/accuracy/figures.sh",
                       "tests/accuracy/measure.sh", "tests/accuracy/sensors.sh",
-                      "tests/arm64/cross.sh", "tests/packages/bare_debian.sh",
-                      "tests/pose_fitter/train.sh", "tests/replay/update_golden.sh", "tests/run.sh",
-                      "tests/segmenter/train.sh", "tests/segmenter/train_depth_pose.sh"));
+                      "tests/accuracy/simulated.sh", "tests/arm64/cross.sh",
+                      "tests/packages/bare_debian.sh", "tests/pose_fitter/train.sh",
+                      "tests/replay/update_golden.sh", "tests/run.sh", "tests/segmenter/train.sh",
+                      "tests/segmenter/train_depth_pose.sh"));
 
 TEST(InstallDependencies, TakesRunOrTestAlone) {
   const std::string script = repository_file("modules/install_dependencies.sh");
