@@ -83,7 +83,7 @@ TEST(FrontTerm, MindsATrunkTurnedAgainstTheDepths) {
 
 TEST(FrontTerm, MindsLeftWhereTheDepthsShowRight) {
   const RefinedParams params;
-  const BodyState body = testing::standing_body(2.5, 0.0);
+  const refined::BodyState body = testing::standing_body(2.5, 0.0);
   Segment segment = testing::colored(testing::seen(body));
   segment.image_poses = testing::in_depths(body);
   const auto observation = refined::observe(segment, testing::stamp(), params);
