@@ -92,6 +92,17 @@ TEST(FrontTerm, MindsLeftWhereTheDepthsShowRight) {
               params.front_cost_per_log_odds * params.depth_side_log_odds, 0.01);
 }
 
+TEST(FrontTerm, DoesNotMindTheDepthsSidesWhereTheirNoiseIsLarge) {
+  const RefinedParams params;
+  const refined::BodyState body = testing::standing_body(2.5, 0.0);
+  Segment segment = testing::colored(testing::seen(body));
+  segment.image_poses = testing::in_depths(body);
+  Stamp stamp = testing::stamp();
+  stamp.depth_noise = {2.0F * static_cast<float>(params.depth_side_most_noise_m), 0.0F};
+  const auto observation = refined::observe(segment, stamp, params);
+  EXPECT_NEAR(front_cost(front_back_flipped(body), *observation, params), 0.0, 0.01);
+}
+
 TEST(FrontTerm, MindsATrunkTurnedAgainstTheImage) {
   const RefinedParams params;
   const double most = params.front_cost_per_log_odds * params.image_side_log_odds;

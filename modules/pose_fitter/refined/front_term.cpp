@@ -72,6 +72,8 @@ Real image_disagreement(const Vec3& front, const View& view, const Observation& 
 /// What speaks against a body whose left the network of depths sees on the right.
 Real depth_disagreement(const BodyState& body, const Observation& observation,
                         const RefinedParams& params) {
+  const auto distance_m = static_cast<float>(observation.head_start.z());
+  if (observation.noise.sigma_m(distance_m) > params.depth_side_most_noise_m) return 0.0;
   for (const ImageLook& look : observation.looks) {
     if (look.network == ImageNetwork::kDepthPose &&
         takes_sides_otherwise(body, look, kAllParts, params))
