@@ -56,9 +56,9 @@ struct HeadShapeParams {
   /// Candidates nearer than this to a better one are left out [m]. A hand beside a head must not
   /// hide it.
   float separation_m = 0.14F;
-  /// Strongest candidates kept in a frame. A dense scan of a furnished room has up to 300; of 80
-  /// people of groups before one were not among them.
-  int max_candidates = 400;
+  /// Strongest candidates kept in a frame: in dense scans of furnished rooms a list of 80 left out
+  /// the heads of people in plain sight.
+  int max_candidates = 120;
 };
 
 /// The trained classifiers (head_classifier.hpp).
