@@ -13,6 +13,12 @@ constexpr int kSamples = 4;
 constexpr Real kRadiusShare = 0.75;
 constexpr Real kClearanceSigmaM = 0.015;
 constexpr Real kClearanceLimitSigmas = 10.0;
+/// Against the rays of depth: silhouettes are cut wrongly more often than depths are measured so.
+/// Tuned.
+constexpr Real kClearanceWeight = 0.5;
+/// Where a surface that is not the person's lies less than this behind a limb, the sensor hardly
+/// saw through: most likely it is the limb, cut off as somebody else's or nobody's [m]. Tuned.
+constexpr float kSeenThroughM = 0.45F;
 /// The skin stands this share of the radius before the axis.
 constexpr Real kDepthShare = 0.8;
 constexpr Real kDepthSigmaM = 0.02;
@@ -45,22 +51,38 @@ struct Sample {
   Real t;
 };
 
+/// How a sample is held against what the sensor saw.
+struct Bound {
+  Real weight, sigma_m, limit_sigmas;
+};
+
+/// Whether the pixel shows a surface of something else so near behind the sample, or before it,
+/// that the sensor did not see through the sample.
+bool lies_at_other_surface(const Observation& observation, int u, int v, Real sample_m) {
+  const std::size_t i = observation.at(u, v);
+  const float measured_m = observation.measured_m[i];
+  return observation.surface_m[i] <= 0.0F && measured_m > 0.0F &&
+         measured_m < static_cast<float>(sample_m) + kSeenThroughM;
+}
+
 }  // namespace
 
 void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
                          Real weight, Workspace& workspace, NormalEquations& equations) {
   const PinholeCamera& camera = observation.camera;
   Real cost = 0.0;
-  const auto add = [&](const Sample& sample, Real residual, Real sigma, Real limit,
+  const auto add = [&](const Sample& sample, Real residual, const Bound& bound,
                        const Vec3& gradient) {
-    const Real information = 1.0 / (sigma * sigma);
+    const Real information = 1.0 / (bound.sigma_m * bound.sigma_m);
+    const Real limit = bound.limit_sigmas;
     const Real ratio = information * residual * residual / (limit * limit),
                shrink = 1.0 / (1.0 + ratio);
-    cost += weight * 0.5 * limit * limit * ratio * shrink;
+    cost += bound.weight * 0.5 * limit * limit * ratio * shrink;
     workspace.cones.add(sample.cone, static_cast<float>(sample.t), gradient.cast<float>(), 0.0F,
                         static_cast<float>(residual),
-                        static_cast<float>(weight * information * shrink * shrink));
+                        static_cast<float>(bound.weight * information * shrink * shrink));
   };
+  const Bound silhouette{kClearanceWeight * weight, kClearanceSigmaM, kClearanceLimitSigmas};
   for (int c = 0; c < kConeCount; ++c) {
     const Part part = cone_specs()[c].part;
     if ((bit(part) & parts) == 0) continue;
@@ -75,15 +97,14 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
       if (!inside && !observation.in_sensor_image(u, v)) continue;
       const Clearance clearance = clearance_at(observation, u, v);
       const Real outside = kRadiusShare * radius - clearance.value * center.z() / camera.fx;
-      if (outside > 0.0) {
-        add(sample, outside, kClearanceSigmaM, kClearanceLimitSigmas,
-            {-clearance.gradient.x(), -clearance.gradient.y(), 0.0});
+      if (outside > 0.0 && !(inside && lies_at_other_surface(observation, u, v, center.z()))) {
+        add(sample, outside, silhouette, {-clearance.gradient.x(), -clearance.gradient.y(), 0.0});
       }
       const Real surface = inside ? observation.surface_m[observation.at(u, v)] : 0.0;
       if (surface <= 0.0) continue;
       const Real sigma = kDepthSigmaM + observation.noise.sigma_m(static_cast<float>(surface));
       const Real before = surface - (center.z() - kDepthShare * radius) - 0.5 * sigma;
-      if (before > 0.0) add(sample, before, sigma, kDepthLimitSigmas, {0.0, 0.0, -1.0});
+      if (before > 0.0) add(sample, before, {weight, sigma, kDepthLimitSigmas}, {0.0, 0.0, -1.0});
     }
   }
   equations.cost += cost;

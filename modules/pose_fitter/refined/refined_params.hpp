@@ -24,7 +24,7 @@ struct RefinedParams {
   int min_points = 40;
   /// Weight of a point against the priors, for each square of 3 cm that it stands for: neighbours
   /// in depth images share their errors, those of a scanner do less. Tuned.
-  double point_weight = 0.5, scan_point_weight = 0.65;
+  double point_weight = 0.45, scan_point_weight = 0.6;
   /// Points farther than this from the head's start are not the person's [m]: arm span of a tall
   /// man.
   double reach_m = 2.0;
@@ -42,7 +42,7 @@ struct RefinedParams {
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
   std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
-  std::array<double, 3> image_weight = {1.0, 2.0, 2.0};
+  std::array<double, 3> image_weight = {1.25, 2.5, 2.5};
   double image_limit_sigmas = 4.0;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
