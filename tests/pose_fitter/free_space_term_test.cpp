@@ -14,6 +14,7 @@ using refined::BodyState;
 class FreeSpaceTerm : public ::testing::Test {
  protected:
   static constexpr int kSide = 0;
+  static constexpr float kWallM = 2.0F;  ///< behind the arm
 
   static BodyState arm_held_out() {
     BodyState body = testing::standing_body(2.5, 0.0);
@@ -63,12 +64,11 @@ class FreeSpaceTerm : public ::testing::Test {
 TEST_F(FreeSpaceTerm, CostsNothingOfAnArmInSight) { EXPECT_LT(cost_in(testing::seen(body_)), 1.0); }
 
 TEST_F(FreeSpaceTerm, CostsMuchWhereTheSensorSawThroughTheArm) {
-  constexpr float kWallM = 2.0F;
   EXPECT_GT(cost_in(forearm_cut_off(kWallM)), 20.0);
 }
 
 TEST_F(FreeSpaceTerm, CostsLittleWhereTheArmIsThereAndTakenForSomethingElse) {
-  const double seen_through = cost_in(forearm_cut_off(2.0F));
+  const double seen_through = cost_in(forearm_cut_off(kWallM));
   for (const float behind_m : {-0.3F, 0.0F, 0.2F})
     EXPECT_LT(cost_in(forearm_cut_off(behind_m)), 0.25 * seen_through) << behind_m << " m behind";
 }
