@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "modules/segmenter/lattice_box.hpp"
+
 namespace limbcast::segmenter {
 namespace {
 
@@ -35,9 +37,31 @@ std::vector<std::uint32_t> asked_points(const Lattice& lattice,
 /// The first asked row from there on.
 int asked_from(int row) { return (row + kStride_px - 1) / kStride_px * kStride_px; }
 
+/// Log odds at the points of a cluster.
+class OddsInBox {
+ public:
+  OddsInBox(const Lattice& lattice, const std::vector<std::uint32_t>& points)
+      : width_(lattice.width),
+        box_(box_around(lattice, points)),
+        odds_(static_cast<std::size_t>(box_.area()), 0.0F) {}
+
+  float& at(std::uint32_t i) { return odds_[place(i)]; }
+  float at(std::uint32_t i) const { return odds_[place(i)]; }
+
+ private:
+  std::size_t place(std::uint32_t i) const {
+    const int u = static_cast<int>(i) % width_ - box_.x, v = static_cast<int>(i) / width_ - box_.y;
+    return static_cast<std::size_t>(v * box_.width + u);
+  }
+
+  int width_;
+  cv::Rect box_;
+  std::vector<float> odds_;
+};
+
 /// Mean over the asked points of the cluster that lie near; 0 where there is none.
 float mean_near(const Lattice& lattice, const std::vector<std::int16_t>& labels,
-                const std::vector<float>& asked_odds, std::uint32_t i) {
+                const OddsInBox& asked_odds, std::uint32_t i) {
   const int u = static_cast<int>(i) % lattice.width, v = static_cast<int>(i) / lattice.width;
   float sum = 0.0F;
   int count = 0;
@@ -49,7 +73,7 @@ float mean_near(const Lattice& lattice, const std::vector<std::int16_t>& labels,
       const bool near =
           (lattice.level_m[*n] - lattice.level_m[i]).squaredNorm() <= kMeanReach_m * kMeanReach_m;
       if (labels[*n] != labels[i] || !near) continue;
-      sum += asked_odds[*n];
+      sum += asked_odds.at(*n);
       ++count;
     }
   }
@@ -92,9 +116,9 @@ std::vector<float> BodyClassifier::body_odds(const Lattice& lattice, const HeadC
   for (std::size_t k = 0; k < asked.size(); ++k)
     inputs.row(static_cast<Eigen::Index>(k)) = point_input(lattice, head, asked[k], false);
   const Eigen::VectorXf told = network_.log_odds(inputs);
-  std::vector<float> asked_odds(lattice.size(), 0.0F);
+  OddsInBox asked_odds(lattice, asked);
   for (std::size_t k = 0; k < asked.size(); ++k)
-    asked_odds[asked[k]] = told[static_cast<Eigen::Index>(k)];
+    asked_odds.at(asked[k]) = told[static_cast<Eigen::Index>(k)];
   for (std::size_t k = 0; k < points.size(); ++k)
     odds[k] = mean_near(lattice, labels, asked_odds, points[k]);
   return odds;

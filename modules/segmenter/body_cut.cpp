@@ -1,5 +1,7 @@
 #include "modules/segmenter/body_cut.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -36,46 +38,47 @@ float area_of_parts_m2(const Lattice& lattice, const std::vector<std::uint32_t>&
   return sum_m2;
 }
 
-/// Marks what is cut off from one person, whose points' log odds are told.
-void judge_cluster(const Lattice& lattice, const std::vector<std::uint32_t>& points,
-                   const std::vector<float>& odds, const BodyCutParams& params,
-                   std::vector<Verdict>& verdicts) {
+/// What becomes of each of one person's points, whose log odds are told.
+std::vector<Verdict> judge_cluster(const Lattice& lattice, const std::vector<std::uint32_t>& points,
+                                   const std::vector<float>& odds, const BodyCutParams& params) {
+  std::vector<Verdict> verdicts(points.size(), Verdict::kBody);
   std::vector<std::uint32_t> unlikely;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (odds[k] < params.min_body_odds) unlikely.push_back(points[k]);
   }
-  if (area_of_parts_m2(lattice, unlikely, params) < params.min_other_m2) return;
+  if (area_of_parts_m2(lattice, unlikely, params) < params.min_other_m2) return verdicts;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (odds[k] < params.min_body_odds)
-      verdicts[points[k]] = odds[k] > params.min_unsure_odds ? Verdict::kUnsure : Verdict::kOther;
+      verdicts[k] = odds[k] > params.min_unsure_odds ? Verdict::kUnsure : Verdict::kOther;
   }
+  return verdicts;
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> cut_to_bodies(const Lattice& lattice, const BodyClassifier& classifier,
                                          const BodyCutParams& params, JointGrowth& growth) {
-  const std::vector<std::int16_t> before = growth.labels();
-  std::vector<Verdict> verdicts(lattice.size(), Verdict::kBody);
-  const auto clusters = points_by_label(before, growth.heads().size());
-  for (std::size_t k = 0; k < clusters.size(); ++k)
-    judge_cluster(lattice, clusters[k],
-                  classifier.body_odds(lattice, growth.heads()[k], before, clusters[k]), params,
-                  verdicts);
-  std::vector<std::uint32_t> cut, unsure;
-  bool any = false;
-  for (std::uint32_t i = 0; i < verdicts.size(); ++i) {
-    any = any || verdicts[i] != Verdict::kBody;
-    // What nobody had stays nobody's.
-    if (before[i] == kNobody || verdicts[i] != Verdict::kBody) cut.push_back(i);
+  const auto clusters = points_by_label(growth.labels(), growth.heads().size());
+  std::vector<std::uint32_t> body, not_other;
+  bool any_cut = false;
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    const std::vector<std::uint32_t>& points = clusters[k];
+    const std::vector<float> odds =
+        classifier.body_odds(lattice, growth.heads()[k], growth.labels(), points);
+    const std::vector<Verdict> verdicts = judge_cluster(lattice, points, odds, params);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      if (verdicts[n] == Verdict::kBody) body.push_back(points[n]);
+      if (verdicts[n] != Verdict::kOther) not_other.push_back(points[n]);
+      any_cut = any_cut || verdicts[n] != Verdict::kBody;
+    }
   }
-  if (!any) return unsure;
-  growth.grow_without(cut);
+  std::vector<std::uint32_t> unsure;
+  if (!any_cut) return unsure;
+  // What nobody had stays nobody's.
+  growth.grow_within(body);
   // A body's points that hang on cut ones, a hand beyond a cut forearm, are not told from others.
-  for (std::uint32_t i = 0; i < verdicts.size(); ++i) {
-    const bool lost = before[i] != kNobody && growth.labels()[i] == kNobody;
-    if (lost && verdicts[i] != Verdict::kOther) unsure.push_back(i);
-  }
+  std::copy_if(not_other.begin(), not_other.end(), std::back_inserter(unsure),
+               [&](std::uint32_t i) { return growth.labels()[i] == kNobody; });
   return unsure;
 }
 

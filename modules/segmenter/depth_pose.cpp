@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "common/human_model/joints.hpp"
@@ -56,13 +57,12 @@ void add_mirrored(const Figures& mirrored_figures, Figures& figures) {
   }
 }
 
-/// The mean of what the network tells of a picture and of its mirror image: a tenth to a sixth less
-/// is told wrong than by one look (tests/accuracy/README.md).
-Figures figures_of_both(TfliteNetwork& network, const cv::Mat3f& picture) {
+/// The mean of what the network told of a picture and of what it tells of its mirror image: a tenth
+/// to a sixth less is told wrong than by one look (tests/accuracy/README.md).
+Figures figures_of_both(TfliteNetwork& network, const cv::Mat3f& picture, Figures figures) {
   cv::Mat3f mirror;
   constexpr int kLeftToRight = 1;
   cv::flip(picture, mirror, kLeftToRight);
-  Figures figures = figures_of(network, picture);
   add_mirrored(figures_of(network, mirror), figures);
   for (float& figure : figures) figure *= 0.5F;
   return figures;
@@ -107,11 +107,11 @@ SeenInDepths find_joint(const Figures& figures, int joint) {
   return {px, cell.behind_middle_m(), probability(cell.presence_odds()), cell.visibility()};
 }
 
-float person_score(const Figures& figures) {
+float person_odds(const Figures& figures) {
   float sum = 0.0F;
   for (std::size_t cell = 0; cell < kCellCount; ++cell)
     sum += figures[cell * kFigures + kPersonFigure];
-  return probability(sum / static_cast<float>(kCellCount));
+  return sum / static_cast<float>(kCellCount);
 }
 
 /// What the network sees in a picture.
@@ -122,7 +122,7 @@ struct SeenPerson {
 
 SeenPerson read_figures(const Figures& figures) {
   SeenPerson seen;
-  seen.score = person_score(figures);
+  seen.score = probability(person_odds(figures));
   for (int joint = 0; joint < kJointCount; ++joint)
     seen.joints[static_cast<std::size_t>(joint)] = find_joint(figures, joint);
   return seen;
@@ -148,7 +148,8 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
   const auto picture = draw_depths(view, head_m, down, params_.picture);
   if (!picture) return std::nullopt;
   const auto seen = networks_->with([&](TfliteNetwork& network) {
-    return read_figures(figures_of_both(network, picture->channels));
+    return read_figures(
+        figures_of_both(network, picture->channels, figures_of(network, picture->channels)));
   });
   const Eigen::Matrix3f view_from_picture =
       view.frame_from_image.transpose() * picture->frame_from_picture;
@@ -168,6 +169,19 @@ std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Ve
   const float hips_m = 0.5F * (depth_m[index(Joint::kHipLeft)] + depth_m[index(Joint::kHipRight)]);
   for (ImageJoint& joint : pose.joints) joint.behind_hips_m = depth_m[index(joint.joint)] - hips_m;
   return pose;
+}
+
+bool DepthPose::shows_person(const RangeImage& view, const Eigen::Vector3f& head_m,
+                             const Eigen::Vector3f& down, float min_person_odds) const {
+  if (!networks_) return false;
+  const auto picture = draw_depths(view, head_m, down, params_.picture);
+  if (!picture) return false;
+  return networks_->with([&](TfliteNetwork& network) {
+    Figures figures = figures_of(network, picture->channels);
+    if (person_odds(figures) < min_person_odds - params_.mirror_adds_odds) return false;
+    figures = figures_of_both(network, picture->channels, std::move(figures));
+    return person_odds(figures) >= min_person_odds;
+  });
 }
 
 }  // namespace limbcast::segmenter

@@ -23,6 +23,10 @@ class DepthPose {
   /// Joints in the pixels of the image that `view` is a part of; see draw_depths().
   std::optional<ImagePose> look(const RangeImage& view, const Eigen::Vector3f& head_m,
                                 const Eigen::Vector3f& down) const;
+  /// Whether the log odds of a person are at least so high, as look() tells them. For most things
+  /// one look of the network is enough.
+  bool shows_person(const RangeImage& view, const Eigen::Vector3f& head_m,
+                    const Eigen::Vector3f& down, float min_person_odds) const;
 
  private:
   DepthPoseParams params_;

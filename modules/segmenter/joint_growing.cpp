@@ -108,6 +108,16 @@ void JointGrowth::set(std::uint32_t i, std::int16_t label, float way_m) {
 void JointGrowth::grow_without(const std::vector<std::uint32_t>& points) {
   forbidden_.resize(lattice_->size(), 0);
   for (const std::uint32_t i : points) forbidden_[i] = 1;
+  grow_anew();
+}
+
+void JointGrowth::grow_within(const std::vector<std::uint32_t>& points) {
+  forbidden_.assign(lattice_->size(), 1);
+  for (const std::uint32_t i : points) forbidden_[i] = 0;
+  grow_anew();
+}
+
+void JointGrowth::grow_anew() {
   labels_.assign(labels_.size(), kNobody);
   way_m_.assign(way_m_.size(), kNoWay_m);
   bridges_.clear();

@@ -34,6 +34,8 @@ class JointGrowth {
 
   /// Grows again without some points: what turned out to be no part of a body.
   void grow_without(const std::vector<std::uint32_t>& points);
+  /// Grows again over some of the points that heads have, and over nothing else.
+  void grow_within(const std::vector<std::uint32_t>& points);
 
   const std::vector<HeadCandidate>& heads() const { return heads_; }
   bool dropped(std::int16_t head) const { return dropped_[static_cast<std::size_t>(head)]; }
@@ -52,6 +54,7 @@ class JointGrowth {
     float way_m;
   };
 
+  void grow_anew();
   void start(std::int16_t head);
   void grow();
   void visit(std::uint32_t i);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "common/units.hpp"
+#include "modules/segmenter/nearest_pixels.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -72,32 +72,19 @@ std::int16_t label_near(const Lattice& panorama, const std::vector<std::int16_t>
 
 /// Gives empty directions the depth of the nearest one that has a point within `radius_px`.
 void fill_gaps(int radius_px, Lattice& panorama) {
-  cv::Mat1b empty(panorama.height, panorama.width);
-  for (std::size_t i = 0; i < panorama.size(); ++i)
-    empty(static_cast<int>(i)) = panorama.depth_m[i] > 0.0F ? 0 : 1;
-  if (cv::countNonZero(empty) == static_cast<int>(panorama.size())) return;
-  cv::Mat1f distance;
-  cv::Mat1i nearest;
-  cv::distanceTransform(empty, distance, nearest, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
-  std::vector<std::size_t> pixel_of_label(panorama.size() + 1, 0);
-  for (std::size_t i = 0; i < panorama.size(); ++i) {
-    if (empty(static_cast<int>(i)) == 0)
-      pixel_of_label[static_cast<std::size_t>(nearest(static_cast<int>(i)))] = i;
-  }
-  for (std::size_t i = 0; i < panorama.size(); ++i) {
-    const int k = static_cast<int>(i);
-    if (empty(k) == 0 || distance(k) > static_cast<float>(radius_px)) continue;
-    const std::size_t from = pixel_of_label[static_cast<std::size_t>(nearest(k))];
-    const float depth_m = panorama.depth_m[from];
+  const cv::Mat1b empty =
+      cv::Mat1f(panorama.height, panorama.width, panorama.depth_m.data()) <= 0.0F;
+  fill_from_nearest(empty, radius_px, [&](std::size_t pixel, std::size_t nearest) {
+    const float depth_m = panorama.depth_m[nearest];
     const auto width = static_cast<std::size_t>(panorama.width);
-    const std::size_t column = i % width, row = i / width;
+    const std::size_t column = pixel % width, row = pixel / width;
     const float azimuth_rad = (static_cast<float>(column) + 0.5F) / panorama.focal_px - kPi<float>;
     const float slope = kMaxSlope - (static_cast<float>(row) + 0.5F) / panorama.focal_px;
-    panorama.depth_m[i] = depth_m;
-    panorama.level_m[i] = {depth_m * std::sin(azimuth_rad), depth_m * std::cos(azimuth_rad),
-                           panorama.frame.sensor_height_m + slope * depth_m};
-    panorama.source[i] = panorama.source[from];
-  }
+    panorama.depth_m[pixel] = depth_m;
+    panorama.level_m[pixel] = {depth_m * std::sin(azimuth_rad), depth_m * std::cos(azimuth_rad),
+                               panorama.frame.sensor_height_m + slope * depth_m};
+    panorama.source[pixel] = panorama.source[nearest];
+  });
 }
 
 }  // namespace

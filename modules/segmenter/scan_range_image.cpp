@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/nearest_pixels.hpp"
 #include "modules/segmenter/range_image.hpp"
 
 namespace limbcast::segmenter {
@@ -64,24 +64,11 @@ std::vector<int> draw(const RangeImageSource& source, RangeImage& image) {
 }
 
 void fill_gaps(int gap_px, RangeImage& image, std::vector<int>& point_of) {
-  cv::Mat1b empty(image.camera.height, image.camera.width);
-  for (std::size_t i = 0; i < point_of.size(); ++i)
-    empty(static_cast<int>(i)) = point_of[i] < 0 ? 1 : 0;
-  cv::Mat1f distance;
-  cv::Mat1i nearest;
-  cv::distanceTransform(empty, distance, nearest, cv::DIST_L2, 5, cv::DIST_LABEL_PIXEL);
-  std::vector<std::size_t> pixel_of_label(point_of.size() + 1, 0);
-  for (std::size_t i = 0; i < point_of.size(); ++i) {
-    if (point_of[i] >= 0)
-      pixel_of_label[static_cast<std::size_t>(nearest(static_cast<int>(i)))] = i;
-  }
-  for (std::size_t i = 0; i < point_of.size(); ++i) {
-    const int k = static_cast<int>(i);
-    if (empty(k) == 0 || distance(k) > static_cast<float>(gap_px)) continue;
-    const std::size_t from = pixel_of_label[static_cast<std::size_t>(nearest(k))];
-    image.depth_m[i] = image.depth_m[from];
-    point_of[i] = point_of[from];
-  }
+  const cv::Mat1b empty = cv::Mat1i(image.camera.height, image.camera.width, point_of.data()) < 0;
+  fill_from_nearest(empty, gap_px, [&](std::size_t pixel, std::size_t nearest) {
+    image.depth_m[pixel] = image.depth_m[nearest];
+    point_of[pixel] = point_of[nearest];
+  });
 }
 
 }  // namespace
