@@ -264,9 +264,9 @@ std::string text_of(const std::filesystem::filesystem_error& error) {
          "; check its name and permissions";
 }
 
-/// Each frame's images and lattices (up to some 10 MB each) are freed soon and wanted again with the
-/// next frame. glibc gives such memory back to the kernel each time, which then clears it anew: of a
-/// dense scan's frame that took a third of the time.
+/// Each frame's images and lattices (up to some 10 MB each) are freed soon and wanted again with
+/// the next frame. glibc gives such memory back to the kernel each time, which then clears it anew:
+/// of a dense scan's frame that took a third of the time.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kLargestThatIsKept_bytes = 32 << 20;  // the most that glibc takes

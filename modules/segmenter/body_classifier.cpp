@@ -51,7 +51,8 @@ class OddsInBox {
  private:
   std::size_t place(std::uint32_t i) const {
     const int u = static_cast<int>(i) % width_ - box_.x, v = static_cast<int>(i) / width_ - box_.y;
-    return static_cast<std::size_t>(v * box_.width + u);
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(box_.width) +
+           static_cast<std::size_t>(u);
   }
 
   int width_;

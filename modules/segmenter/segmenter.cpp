@@ -211,10 +211,9 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
     HeadCandidate& head = refused[k];
     Segment body;
     fill_segment(scene, labels, static_cast<std::int16_t>(k), body);
-    head.told_by_body =
-        body.range_image &&
-        depth_pose_.shows_person(*body.range_image, frame.to_sensor(head.center_m), frame.down(),
-                                 params_.overlooked.min_person_odds);
+    head.told_by_body = body.range_image &&
+                        depth_pose_.shows_person(*body.range_image, frame.to_sensor(head.center_m),
+                                                 frame.down(), params_.overlooked.min_person_odds);
   });
   refused.erase(std::remove_if(refused.begin(), refused.end(),
                                [](const HeadCandidate& head) { return !head.told_by_body; }),

@@ -161,6 +161,29 @@ TEST_F(DepthsOfTheDemo, ShowAPersonAndDoNotShowOneInAWall) {
   EXPECT_LT(seen->person_score, 1.0F - kSure);
 }
 
+TEST_F(DepthsOfTheDemo, TellWhetherAPersonIsThereAsALookDoes) {
+  const DepthPose network{DepthPoseParams{}};
+  const RangeImage person = segment(colorless(frame_.cloud)).segments.at(0).range_image.value();
+  constexpr float kSure = 4.0F;
+  EXPECT_TRUE(network.shows_person(person, person_[Joint::kHead].position_m,
+                                   frame_.cloud.stamp.gravity.down, kSure));
+  // To the network something else in the mirror.
+  RangeImage wall_on_the_left = wall();
+  for (std::size_t i = 0; i < wall_on_the_left.depth_m.size(); ++i) {
+    const auto width = static_cast<std::size_t>(wall_on_the_left.camera.width);
+    if (i % width > width / 2) wall_on_the_left.labels[i] = PixelLabel::kOther;
+  }
+  const auto wall_is_over = [&](float odds) {
+    return network.shows_person(wall_on_the_left, head_before_middle(), kDown, odds);
+  };
+  EXPECT_FALSE(wall_is_over(kSure));
+  const float odds =
+      log_odds(network.look(wall_on_the_left, head_before_middle(), kDown)->person_score);
+  constexpr float kRounding = 0.01F;
+  EXPECT_TRUE(wall_is_over(odds - kRounding)) << odds;
+  EXPECT_FALSE(wall_is_over(odds + kRounding)) << odds;
+}
+
 TEST_F(DepthsOfTheDemo, ShowTheSameToPortableNetworks) {
   Params portable;
   portable.depth_pose.library = NetworkLibrary::kXnnpack;
