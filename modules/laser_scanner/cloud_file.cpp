@@ -97,6 +97,18 @@ void check_pcd_column(const Column& column, const std::string& path) {
   }
 }
 
+/// POINTS must be WIDTH x HEIGHT, as PCL wants it too: else it is open how many rows follow. HEIGHT
+/// 0 is PCL's for a list of points.
+std::size_t num_pcd_points(const PcdHeader& header, const std::string& path) {
+  if (!header.width) return *header.num_points;
+  const std::size_t height = std::max<std::size_t>(header.height, 1);
+  const std::size_t in_lattice = *header.width * height;
+  if (header.num_points.value_or(in_lattice) == in_lattice) return in_lattice;
+  throw InputError(path + ": its header tells POINTS " + std::to_string(*header.num_points) +
+                   " but WIDTH " + std::to_string(*header.width) + " x HEIGHT " +
+                   std::to_string(height) + "; write it again or correct its header");
+}
+
 PcdHeader read_pcd_header(const std::string& bytes, std::size_t& at, const std::string& path) {
   PcdHeader header;
   while (header.data.empty()) {
@@ -106,7 +118,7 @@ PcdHeader read_pcd_header(const std::string& bytes, std::size_t& at, const std::
   for (const Column& column : header.table.columns) check_pcd_column(column, path);
   if (header.table.columns.empty()) fail(path, "its header names no fields");
   if (!header.num_points && !header.width) fail(path, "its header does not tell how many points");
-  header.table.num_points = header.num_points ? *header.num_points : *header.width * header.height;
+  header.table.num_points = num_pcd_points(header, path);
   return header;
 }
 

@@ -165,6 +165,19 @@ TEST_F(CloudFile, WithoutPointsLineHasWidthTimesHeight) {
   EXPECT_THAT(error("a.pcd", start + rows), HasSubstr("does not tell how many points"));
 }
 
+TEST_F(CloudFile, WithOtherPointsThanWidthTimesHeightIsNamed) {
+  const auto pcd = [](const std::string& lattice, int points) {
+    return "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + lattice +
+           "POINTS " + std::to_string(points) + "\nDATA ascii\n1 2 3\n4 5 6\n7 8 9\n1 1 1\n";
+  };
+  for (const int points : {3, 5})
+    EXPECT_THAT(error("a.pcd", pcd("WIDTH 2\nHEIGHT 2\n", points)),
+                HasSubstr("a.pcd: its header tells POINTS " + std::to_string(points) +
+                          " but WIDTH 2 x HEIGHT 2; write it again or correct its header"));
+  for (const char* lattice : {"WIDTH 2\nHEIGHT 2\n", "WIDTH 4\n", "WIDTH 4\nHEIGHT 0\n", ""})
+    EXPECT_EQ(read("a.pcd", pcd(lattice, 4)).points.size(), 4U) << lattice;
+}
+
 TEST_F(CloudFile, WithMorePointsThanCanBeSentIsNamed) {
   const std::string text = "holds 6 points, more than the 5 that can be sent; thin it out";
   EXPECT_THAT(error("a.pcd", pcd_header("binary", 6) + std::string(96, '\0')), HasSubstr(text));
