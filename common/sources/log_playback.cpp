@@ -110,9 +110,14 @@ std::string list_of(const std::set<std::string>& channels) {
 }  // namespace
 
 bool is_lcm_log(const std::string& source) {
+  const bool named_like_one = std::filesystem::path(source).extension() == ".log" &&
+                              std::filesystem::is_regular_file(source);
+  return named_like_one || begins_as_lcm_log(source);
+}
+
+bool begins_as_lcm_log(const std::string& source) {
   constexpr std::array<char, 4> kSyncWord = {'\xED', '\xA1', '\xDA', '\x01'};
   if (!std::filesystem::is_regular_file(source)) return false;
-  if (std::filesystem::path(source).extension() == ".log") return true;
   std::array<char, 4> head{};
   std::ifstream(source, std::ios::binary).read(head.data(), head.size());
   return head == kSyncWord;

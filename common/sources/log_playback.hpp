@@ -9,6 +9,8 @@ namespace limbcast {
 /// Whether the source is a log made by lcm-logger (or by a camera process with --log), or a file
 /// that is named like one, of which lcm_io::LogReader says what is wrong.
 bool is_lcm_log(const std::string& source);
+/// Whether there are messages of LCM in it, whatever its name.
+bool begins_as_lcm_log(const std::string& source);
 
 /// What of a log belongs to a camera; all else in it stays where it is.
 struct PlaybackChannels {

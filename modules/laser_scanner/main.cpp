@@ -111,7 +111,7 @@ void run(Options& options, const config::CommonOptions& common) {
   if (options.source.source.empty()) {
     throw config::UsageError("--source is missing; see limbcast-laser-scanner --help");
   }
-  if (is_lcm_log(options.source.source))
+  if (begins_as_lcm_log(options.source.source))
     throw InputError(options.source.source + ": is an LCM log; play its clouds with lcm-logplayer");
   check_limits(options.source);
   options.process.source.source = options.source.source;  // a log must not be written over it

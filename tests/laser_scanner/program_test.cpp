@@ -105,6 +105,19 @@ TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
               HasSubstr("'near-limit-m' is 3, must be below 'far-limit-m', 3"));
 }
 
+TEST_F(LaserScannerProgram, TellsOfALogByWhatIsInIt) {
+  const auto error = [this](const std::string& name, const std::string& content) {
+    const std::string path = folder_ + "/" + name;
+    std::ofstream(path, std::ios::binary) << content;
+    const RunResult result = write_log({"--source", path});
+    EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
+    return result.output;
+  };
+  EXPECT_THAT(error("a.log", ""), HasSubstr("a.log: is empty"));
+  EXPECT_THAT(error("a.log", "some words"), HasSubstr("a.log: is neither PCD, PLY nor KITTI .bin"));
+  EXPECT_THAT(error("a.bin", "\xED\xA1\xDA\x01"), HasSubstr("a.bin: is an LCM log; play its"));
+}
+
 TEST_F(LaserScannerProgram, WarnsOnceOfCloudsWithoutPointsUntilOneHasSome) {
   for (const char* name : {"/a.bin", "/b.bin", "/c.bin"}) write_floor(folder_ + name);
   const std::vector<std::string> far = {"--source", folder_, "--near-limit-m", "20"};
