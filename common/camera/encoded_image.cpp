@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -10,7 +9,7 @@
 #include <stdexcept>
 
 #include "common/camera/jpeg.hpp"
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast {
 namespace {
@@ -101,10 +100,7 @@ EncodedImage describe(const cv::Mat& pixels, ImageFormat format) {
 }  // namespace
 
 EncodedImage read_encoded_image(const std::string& path) {
-  // Opens like a file; the stream throws when it is read.
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw InputError(path + ": is a folder; give a picture");
+  check_is_file(path, "give a picture");
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError(path + ": cannot be read; check that it exists and may be read");

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "common/config/byte_order_mark.hpp"
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast {
 namespace {
@@ -63,10 +63,10 @@ std::optional<Eigen::Vector3f> read_down(const std::vector<std::string>& fields)
 
 class TimestampsReader {
  public:
-  explicit TimestampsReader(const std::string& path) : path_(path), file_(path) {
+  explicit TimestampsReader(const std::string& path) : path_(path) {
+    check_is_file(path, "remove or rename it");
+    file_.open(path);
     if (!file_) throw InputError(path + ": cannot be read; check that it may be read");
-    // Opens like a file, and reads as an empty one.
-    if (fs::is_directory(path)) throw InputError(path + ": is a folder; remove or rename it");
   }
 
   std::vector<FrameTime> read() {

@@ -2,22 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 
 #include "common/config/byte_order_mark.hpp"
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast {
 namespace {
 
 std::string read_text(const std::string& path) {
-  // Opens like a file; the stream throws when it is read.
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw InputError(path + ": is a folder; give a calibration file");
+  check_is_file(path, "give a calibration file");
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError(path + ": cannot be read; give the path of a calibration file");

@@ -20,6 +20,7 @@
 #include "common/config/byte_order_mark.hpp"
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast::config {
 namespace {
@@ -192,10 +193,9 @@ void Parser::assign(const std::string& where, const std::string& section, const 
 }
 
 void Parser::read_config_file(const std::string& path, const std::vector<std::string>& given) {
-  std::error_code ignored;
-  // Opens like a file, and reads as an empty one.
-  if (std::filesystem::is_directory(path, ignored))
-    throw UsageError(path + ": is a folder; give a file to --config");
+  const std::string kind = kind_of_no_file(path);
+  if (!kind.empty() && !is_open_pipe(path))
+    throw UsageError(path + ": is " + kind + "; give a file to --config");
   std::ifstream in(path);
   if (!in) throw UsageError(path + ": cannot be read; give an existing file to --config");
   const std::string text{std::istreambuf_iterator<char>(in), {}};

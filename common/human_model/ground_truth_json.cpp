@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast {
 namespace {
@@ -119,6 +119,7 @@ Gravity read_gravity(const Located& file) {
 }
 
 json parse(const std::string& path) {
+  check_is_file(path, "remove or rename it");
   std::ifstream stream(path);
   if (!stream) throw InputError(path + ": cannot be read; check that it exists and may be read");
   try {

@@ -6,7 +6,7 @@
 
 #include "common/human_model/json_node.hpp"
 #include "common/human_model/shipped_models.hpp"
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast {
 namespace {
@@ -23,11 +23,11 @@ ModelText find_text(const std::string& name_or_path) {
   if (const auto shipped = shipped_model(name_or_path)) {
     return {name_or_path + ".json", std::string(*shipped)};
   }
+  const std::string remedy =
+      "name a model that ships (" + shipped_model_names() + ") or the path of a model file";
+  check_is_file(name_or_path, remedy);
   std::ifstream stream(name_or_path);
-  if (!stream) {
-    throw InputError(name_or_path + ": cannot be read; name a model that ships (" +
-                     shipped_model_names() + ") or the path of a model file");
-  }
+  if (!stream) throw InputError(name_or_path + ": cannot be read; " + remedy);
   std::ostringstream text;
   text << stream.rdbuf();
   return {name_or_path, text.str()};

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "common/config/options.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -32,9 +33,10 @@ std::int64_t find_sync_word(std::FILE* file, std::int64_t from, std::int64_t siz
 }
 
 void check_is_log(const std::string& path) {
-  if (std::filesystem::is_directory(path))
-    throw config::UsageError(path +
-                             ": is a folder; give a log that lcm-logger or a camera's --log made");
+  // A pipe of the shell is none either: a log is read here and there.
+  if (const std::string kind = kind_of_no_file(path); !kind.empty())
+    throw config::UsageError(path + ": is " + kind +
+                             "; give a log that lcm-logger or a camera's --log made");
   if (!std::filesystem::is_regular_file(path))
     throw config::UsageError(path + ": no such file; give a log made by lcm-logger");
   std::ifstream in(path, std::ios::binary);

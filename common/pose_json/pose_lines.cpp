@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 #include "common/pose_json/json_fields.hpp"
 #include "common/units.hpp"
 
@@ -30,7 +30,7 @@ OrderedJson direction_json(const Eigen::Vector3f& direction, double steps_per_un
 }
 
 const std::string kRemedy =
-    "; give a file that limbcast-export-poses wrote (with --format json, its default)";
+    "give a file that limbcast-export-poses wrote (with --format json, its default)";
 
 constexpr double kPositionSteps = 1e4;   // 0.1 mm
 constexpr double kDirectionSteps = 1e5;  // 0.0006 degrees
@@ -147,18 +147,18 @@ std::vector<BodyPoses> read_lines(std::istream& in, const std::string& name) {
     try {
       frames.push_back(from_line(line, name + ": line " + std::to_string(number)));
     } catch (const InputError& error) {
-      throw InputError(std::string(error.what()) + kRemedy);
+      throw InputError(std::string(error.what()) + "; " + kRemedy);
     }
   }
   return frames;
 }
 
 std::vector<BodyPoses> read_file(const std::string& path) {
+  check_is_file(path, kRemedy);
   std::ifstream file(path);
   const bool is_open = file.is_open();
   std::vector<BodyPoses> frames = read_lines(file, path);
-  // A folder can be opened, but not read.
-  if (!is_open || file.bad()) throw InputError(path + ": cannot be read" + kRemedy);
+  if (!is_open || file.bad()) throw InputError(path + ": cannot be read; " + kRemedy);
   return frames;
 }
 

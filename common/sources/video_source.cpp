@@ -3,12 +3,13 @@
 #include <cmath>
 #include <utility>
 
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 
 namespace limbcast {
 namespace {
 
 void open_video(cv::VideoCapture& video, const std::string& path) {
+  check_is_file(path, "give a video file");
   if (!video.open(path, cv::CAP_FFMPEG)) {
     throw InputError(path +
                      ": cannot be opened as a video; give a video file, an LCM log, a folder of "

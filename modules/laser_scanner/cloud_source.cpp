@@ -9,7 +9,7 @@
 
 #include "common/formatted.hpp"
 #include "common/human_model/ground_truth_json.hpp"
-#include "common/input_error.hpp"
+#include "common/input_file.hpp"
 #include "modules/laser_scanner/axes.hpp"
 #include "modules/laser_scanner/packet_source.hpp"
 #include "modules/laser_scanner/velodyne.hpp"
@@ -251,11 +251,10 @@ std::unique_ptr<CloudSource> open_cloud_source(const CloudSourceParams& params) 
     return std::make_unique<CloudFiles>(
         params, find_recording_of_files(source, cloud_extensions(source), params.recording));
   }
-  if (!fs::exists(source)) {
-    throw InputError(source +
-                     ": does not exist; give a folder or file of clouds (.pcd, .ply, .bin), a " +
-                     ".pcap recording, or velodyne:PORT");
-  }
+  const std::string remedy =
+      "give a folder or file of clouds (.pcd, .ply, .bin), a .pcap recording, or velodyne:PORT";
+  if (!fs::exists(source)) throw InputError(source + ": does not exist; " + remedy);
+  check_is_file(source, remedy);
   if (extension_of(source) == ".pcap") {
     if (params.loop)
       throw InputError(source + ": a pcap recording cannot be looped; leave out --loop");

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -119,6 +120,12 @@ TEST_F(RecordedFolder, RefusesAFolderForTimestamps) {
   add_pair("a");
   std::filesystem::create_directory(folder_ / "timestamps.csv");
   EXPECT_THAT(error(), HasSubstr("timestamps.csv: is a folder"));
+}
+
+TEST_F(RecordedFolder, RefusesAPipeForTimestamps) {
+  add_pair("a");
+  ASSERT_EQ(mkfifo((folder_ / "timestamps.csv").c_str(), S_IRUSR | S_IWUSR), 0);
+  EXPECT_THAT(error(), HasSubstr("timestamps.csv: is a pipe; remove or rename it"));
 }
 
 TEST_F(RecordedFolder, NamesAMissingPartner) {

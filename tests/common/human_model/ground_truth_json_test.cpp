@@ -97,6 +97,12 @@ TEST_F(GroundTruth, NamesWhatIsWrong) {
               HasSubstr("is no unit vector"));
 }
 
+TEST_F(GroundTruth, IsNoFolder) {
+  const std::string folder = folder_.path();
+  EXPECT_EQ(error_of<InputError>([&] { read_ground_truth(folder); }),
+            folder + ": is a folder; remove or rename it");
+}
+
 TEST_F(GroundTruth, OfEveryRecordingIsRead) {
   const std::string data = LIMBCAST_DATA_DIR;
   if (!std::filesystem::exists(data)) GTEST_SKIP() << data << " is absent";

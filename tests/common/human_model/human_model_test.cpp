@@ -122,6 +122,11 @@ TEST(HumanModel, NamesTheFileThatIsMissingAndWhatShips) {
                              testing::HasSubstr("anthropometric")));
 }
 
+TEST(HumanModel, RefusesAFolder) {
+  EXPECT_THAT(error_of({kDataFolder}),
+              testing::StartsWith(kDataFolder + ": is a folder; name a model that ships ("));
+}
+
 TEST(HumanModel, NamesTheByteAtWhichJsonEnds) {
   const ModelFile file("{\"links\": [");
   EXPECT_THAT(error_of({file.path()}),

@@ -157,7 +157,7 @@ TEST(PoseLines, OfAMissingFileAreAnError) {
 
 TEST(PoseLines, OfAFolderAreAnError) {
   EXPECT_THAT([] { read_file("/"); },
-              testing::ThrowsMessage<InputError>(HasSubstr("/: cannot be read; give a file")));
+              testing::ThrowsMessage<InputError>(HasSubstr("/: is a folder; give a file")));
 }
 
 }  // namespace
