@@ -52,6 +52,17 @@ std::string normalized_argument(const std::string& argument) {
          argument.substr(value_at);
 }
 
+/// "pose_fitter.method" -> "pose_fitter", "method".
+struct OptionName {
+  std::string section, key;
+};
+
+OptionName section_and_key(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos) return {"", name};
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
 }  // namespace
 
 Parser::Parser(std::string program, std::string purpose)
@@ -86,22 +97,25 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
   if (given("help")) return print_help(out), false;
   if (given("version")) return out << program_ << ' ' << kVersion << '\n', false;
 
-  std::vector<std::string> on_command_line;
+  on_command_line_.clear();
   std::vector<std::string> positional_values;
   for (const auto& [name, values] : all) {
     if (name == kArgument) {
       positional_values.insert(positional_values.end(), values.begin(), values.end());
       continue;
     }
-    const std::size_t dot = name.rfind('.');
-    const std::string section = dot == std::string::npos ? "" : name.substr(0, dot);
-    const std::string key = dot == std::string::npos ? name : name.substr(dot + 1);
+    const auto [section, key] = section_and_key(name);
     assign("command line", section, key, values.empty() ? "true" : values.front(), false);
-    on_command_line.push_back(name);
+    on_command_line_.push_back(name);
   }
   assign_positionals(positional_values);
-  if (!common_.config_file.empty()) read_config_file(common_.config_file, on_command_line);
+  if (!common_.config_file.empty()) read_config_file(common_.config_file);
   return true;
+}
+
+bool Parser::on_command_line(const std::string& key) const {
+  return std::any_of(on_command_line_.begin(), on_command_line_.end(),
+                     [&key](const std::string& name) { return section_and_key(name).key == key; });
 }
 
 std::vector<Parser::Given> Parser::read_command_line(int argc, const char* const* argv) const {
@@ -192,7 +206,7 @@ void Parser::assign(const std::string& where, const std::string& section, const 
                      program_ + " --help");
 }
 
-void Parser::read_config_file(const std::string& path, const std::vector<std::string>& given) {
+void Parser::read_config_file(const std::string& path) {
   const std::string kind = kind_of_no_file(path);
   if (!kind.empty() && !is_open_pipe(path))
     throw UsageError(path + ": is " + kind + "; give a file to --config");
@@ -208,13 +222,12 @@ void Parser::read_config_file(const std::string& path, const std::vector<std::st
     throw UsageError(path + ": " + error.what());
   }
   for (const po::option& option : parsed->options) {
-    const std::size_t dot = option.string_key.rfind('.');
-    const std::string section = dot == std::string::npos ? "" : option.string_key.substr(0, dot);
-    const std::string key = with_hyphens(
-        dot == std::string::npos ? option.string_key : option.string_key.substr(dot + 1));
-    const bool mine =
-        std::any_of(sections_.begin(), sections_.end(),
-                    [&section](const Bound& bound) { return bound.section->name() == section; });
+    const auto [section, written_key] = section_and_key(option.string_key);
+    const std::string key = with_hyphens(written_key);
+    const auto is_it = [&name = section](const Bound& bound) {
+      return bound.section->name() == name;
+    };
+    const bool mine = std::any_of(sections_.begin(), sections_.end(), is_it);
     if (!mine) {
       if (std::find(kModuleNames.begin(), kModuleNames.end(), section) == kModuleNames.end())
         throw UsageError(path + ": unknown section [" + section +
@@ -223,12 +236,12 @@ void Parser::read_config_file(const std::string& path, const std::vector<std::st
     }
     const std::string full_key = section.empty() ? key : section + "." + key;
     const auto overridden = [&](const std::string& name) {
-      return std::find(given.begin(), given.end(), name) != given.end();
+      return std::find(on_command_line_.begin(), on_command_line_.end(), name) !=
+             on_command_line_.end();
     };
     if (overridden(full_key)) continue;
-    const bool own = std::any_of(
-        sections_.begin(), sections_.end(),
-        [&section](const Bound& bound) { return bound.own && bound.section->name() == section; });
+    const bool own = std::any_of(sections_.begin(), sections_.end(),
+                                 [&](const Bound& bound) { return bound.own && is_it(bound); });
     if (own && overridden(key)) continue;
     assign(path, section, key, option.value.empty() ? "" : option.value.front(), true);
   }

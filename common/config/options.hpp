@@ -45,6 +45,8 @@ class Parser {
   bool parse(int argc, const char* const* argv, std::ostream& out);
 
   const CommonOptions& common() const { return common_; }
+  /// Did an option of this key stand on the command line, with or without its section?
+  bool on_command_line(const std::string& key) const;
 
  private:
   struct Positional {
@@ -67,7 +69,7 @@ class Parser {
   [[noreturn]] void refuse_argument(const std::string& value) const;
   void assign(const std::string& where, const std::string& section, const std::string& key,
               const std::string& text, bool from_file);
-  void read_config_file(const std::string& path, const std::vector<std::string>& given);
+  void read_config_file(const std::string& path);
   void print_help(std::ostream& out) const;
 
   std::string program_, purpose_;
@@ -75,6 +77,7 @@ class Parser {
   CommonOptions common_;
   std::vector<Bound> sections_;
   std::vector<Positional> positionals_;
+  std::vector<std::string> on_command_line_;  ///< names, with the section where it was given
 };
 
 /// Runs `body` and turns its end into an exit code: 0 done, 1 failed at run time, 2 wrong usage or

@@ -99,15 +99,30 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
   }
 }
 
-void refuse_camera_options(const SourceOptions& options, const std::string& second_key) {
-  if (is_camera(options.source) || !fs::exists(options.source)) return;
-  const std::string settings = driver_settings(options.camera);
-  if (!settings.empty())
-    throw config::UsageError(options.source + ": is a recording; leave out " + settings +
+void refuse_live_options(const std::string& recording, const std::vector<std::string>& keys,
+                         const config::Parser& parser) {
+  std::string given;
+  for (const std::string& key : keys)
+    if (parser.on_command_line(key)) given += (given.empty() ? "" : ", ") + key;
+  if (!given.empty())
+    throw config::UsageError(recording + ": is a recording; leave out " + given +
                              ", which can be set for /dev/videoN only");
+}
+
+void keep_camera_options_out(SourceOptions& options, const std::string& second_key,
+                             const config::Parser& parser) {
+  if (is_camera(options.source) || !fs::exists(options.source)) return;
+  refuse_live_options(
+      options.source,
+      {"camera-width", "camera-height", "camera-rate", "camera-format", "exposure", "gain"},
+      parser);
   const bool holds_both = fs::is_directory(options.source) || is_lcm_log(options.source);
-  if (holds_both && !options.second_source.empty())
+  const bool of_use = !holds_both && !is_camera(options.second_source);
+  if (!parser.on_command_line(second_key)) {
+    if (!of_use) options.second_source.clear();
+  } else if (holds_both && !options.second_source.empty()) {
     throw config::UsageError(options.source + ": holds all images; leave out " + second_key);
+  }
 }
 
 void require_end(const SourceProcessOptions& options) {

@@ -43,9 +43,11 @@ void declare(config::Section& section, SourceProcessOptions& options,
 void require_input(const SourceProcessOptions& options, const std::string& program,
                    bool second_will_do = false);
 
-/// Throws config::UsageError where the source is a recording, but settings of cameras are given, or
-/// a second camera beside a folder or log. `second_key` is its option.
-void refuse_camera_options(const SourceOptions& options, const std::string& second_key);
+/// Throws config::UsageError where the source is a recording, but the command line gives settings
+/// of cameras, or a second camera (its option is `second_key`) beside a folder or log. A robot's
+/// configuration file may tell them: of no use then, and such a second camera is taken out.
+void keep_camera_options_out(SourceOptions& options, const std::string& second_key,
+                             const config::Parser& parser);
 
 /// Throws config::UsageError for a log that would never end.
 void require_end(const SourceProcessOptions& options);

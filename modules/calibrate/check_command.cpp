@@ -2,6 +2,7 @@
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/module.hpp"
+#include "common/sources/source_process.hpp"
 #include "modules/calibrate/check.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/pair_input.hpp"
@@ -26,6 +27,7 @@ bool run_check(int argc, const char* const* argv) {
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
 
+  keep_camera_options_out(source, kSecondKey, parser);
   const StereoCalibration cameras = find_calibration(calibration, source.source);
   CalibrationCheck check(cameras, to_board(board));
   visit_pairs(source, [&](const GreyPair& pair) {

@@ -71,7 +71,6 @@ bool is_of_depth_camera(const std::string& source) {
 
 void visit_depth_frames(const SourceOptions& options, const DepthCalibration& calibration,
                         const TakeFrame& take) {
-  refuse_camera_options(options, "source-depth");
   if (is_lcm_log(options.source))
     visit_depth_log(options.source, take);
   else

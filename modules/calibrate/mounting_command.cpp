@@ -1,11 +1,11 @@
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include "common/camera/calibration_writer.hpp"
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"
 #include "common/lcm_io/module.hpp"
+#include "common/sources/source_process.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/depth_input.hpp"
 #include "modules/calibrate/mounting.hpp"
@@ -20,6 +20,8 @@ struct MountingOptions {
   std::string depth_source, calibration, output;
   int max_frames = 10;
 };
+
+constexpr const char* kDepthKey = "source-depth";
 
 /// The ground is looked for here.
 reconstructor::ReconstructorOptions without_ground() {
@@ -72,7 +74,7 @@ bool run_mounting(int argc, const char* const* argv) {
   MountingOptions options;
   config::Section section("calibrate");
   declare_source(section, options.source);
-  section.add("source-depth", options.depth_source,
+  section.add(kDepthKey, options.depth_source,
               "depth camera or its video, beside or without --source for the colours");
   section.add(
       "calibration", options.calibration,
@@ -86,17 +88,17 @@ bool run_mounting(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return true;
   if (options.output.empty()) throw config::UsageError("--output is missing; see --help");
-  std::vector<std::string> inputs = pictures_read(options.source);
-  inputs.push_back(options.depth_source);
-  config::check_output_file("--output", options.output, inputs);
+  const bool with_depth_camera = !options.depth_source.empty();
+  if (with_depth_camera && !options.source.second_source.empty())
+    throw config::UsageError(
+        "--source-right is of a stereo camera, --source-depth of a depth camera; give one of them");
+  if (with_depth_camera) options.source.second_source = options.depth_source;
+  keep_camera_options_out(options.source, with_depth_camera ? kDepthKey : kSecondKey, parser);
+  config::check_output_file("--output", options.output, pictures_read(options.source));
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
 
-  const bool by_depth_camera = !options.depth_source.empty();
-  if (by_depth_camera && !options.source.second_source.empty())
-    throw config::UsageError(
-        "--source-right is of a stereo camera, --source-depth of a depth camera; give one of them");
-  if (by_depth_camera) options.source.second_source = options.depth_source;
+  const bool by_depth_camera = with_depth_camera && !options.source.second_source.empty();
   if (by_depth_camera || is_of_depth_camera(options.source.source))
     complete_depth(options);
   else

@@ -103,7 +103,7 @@ void declare_source(config::Section& section, SourceOptions& options) {
   section.add("source", options.source,
               "folder with NAME_left and NAME_right, LCM log, video file, /dev/videoN, "
               "gst:PIPELINE or a stream's URL");
-  section.add("source-right", options.second_source,
+  section.add(kSecondKey, options.second_source,
               "camera or video of the right image, where it has one of its own");
   declare_cameras(section, options);
 }
@@ -129,7 +129,6 @@ bool in_sequence(const std::string& source) { return !std::filesystem::is_direct
 
 void visit_pairs(const SourceOptions& options, const Take& take) {
   if (options.source.empty()) throw config::UsageError("--source is missing; see --help");
-  refuse_camera_options(options, "source-right");
   if (std::filesystem::is_directory(options.source)) {
     visit_folder(options.source, take);
   } else if (is_lcm_log(options.source)) {

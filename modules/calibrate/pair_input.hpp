@@ -15,6 +15,9 @@ namespace limbcast::calibrate {
 /// Throws std::runtime_error where a signal to end came: nobody wants the result any more.
 void check_not_told_to_end();
 
+/// Option of the right camera, where it has one of its own.
+inline constexpr const char* kSecondKey = "source-right";
+
 /// Declares --source and what belongs to it.
 void declare_source(config::Section& section, SourceOptions& options);
 

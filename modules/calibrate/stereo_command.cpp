@@ -9,6 +9,7 @@
 #include "common/config/output_file.hpp"
 #include "common/formatted.hpp"
 #include "common/lcm_io/module.hpp"
+#include "common/sources/source_process.hpp"
 #include "modules/calibrate/commands.hpp"
 #include "modules/calibrate/coverage.hpp"
 #include "modules/calibrate/pair_input.hpp"
@@ -129,6 +130,7 @@ bool run_stereo(int argc, const char* const* argv) {
   config::configure_log("calibrate", parser.common().log_level);
   lcm_io::install_signal_handlers();
   if (options.output.empty()) throw config::UsageError("--output is missing; see --help");
+  keep_camera_options_out(options.source, kSecondKey, parser);
   const std::vector<std::string> inputs = pictures_read(options.source);
   config::check_output_file("--output", options.output, inputs);
   config::check_output_file("--picture", options.picture, inputs);

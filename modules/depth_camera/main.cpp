@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
     parser.add(section);
     if (!parser.parse(argc, argv)) return;
     require_input(options.process, "limbcast-depth-camera", /*second_will_do=*/true);
-    refuse_camera_options(options.process.source, depth_camera::kSecondKey);
+    keep_camera_options_out(options.process.source, depth_camera::kSecondKey, parser);
     depth_camera::run(options, parser.common());
   });
 }

@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
     parser.add(section);
     if (!parser.parse(argc, argv)) return;
     require_input(options.process, "limbcast-stereo-camera");
-    refuse_camera_options(options.process.source, stereo_camera::kSecondKey);
+    keep_camera_options_out(options.process.source, stereo_camera::kSecondKey, parser);
     stereo_camera::run(options, parser.common());
   });
 }

@@ -83,6 +83,21 @@ TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasFolder) {
   expect_mounting_of_depth_camera(out / "mounted.yml");
 }
 
+TEST(CalibrateProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecording) {
+  const TemporaryFolder out;
+  const std::string frames = out / "frames";
+  ASSERT_EQ(run_program("limbcast-simulate", simulated_depth_camera("--output", frames)).exit_code,
+            0);
+  for (const char* second : {"source-depth", "source-right"}) {
+    const std::string config = out.write(
+        "robot.conf", "[calibrate]\n" + std::string(second) + " = /dev/video987\ngain = 3\n");
+    const Outcome outcome = run_program(
+        "limbcast-calibrate", {"mounting", "--config", config, "--source", frames, "--calibration",
+                               frames + "/calibration.yml", "--output", out / "mounted.yml"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+}
+
 TEST(CalibrateProgram, FindsTheMountingOfADepthCamerasLogWithItsOwnCalibration) {
   const TemporaryFolder out;
   ASSERT_EQ(

@@ -94,6 +94,16 @@ TEST_F(OptionsTest, TakesTheFileOverDefaultsAndTheCommandLineOverTheFile) {
   EXPECT_EQ(settings_.threads, 8);
 }
 
+TEST_F(OptionsTest, KnowsWhatStoodOnTheCommandLine) {
+  const std::string file = config_file("[pose_fitter]\nmethod = refined\nthreads = 4\n");
+  EXPECT_TRUE(
+      parse({"in.log", "--config", file.c_str(), "--threads=8", "--pose_fitter.d_max_m", "0.1"}));
+  EXPECT_TRUE(parser_.on_command_line("threads"));
+  EXPECT_TRUE(parser_.on_command_line("d-max-m"));
+  EXPECT_FALSE(parser_.on_command_line("method"));
+  EXPECT_FALSE(parser_.on_command_line("verbose"));
+}
+
 TEST_F(OptionsTest, NamesKeyValueAndRangeOfAValueOutOfRange) {
   const std::string error = error_of({"in.log", "--d-max-m=7"});
   EXPECT_THAT(error, HasSubstr("d-max-m"));

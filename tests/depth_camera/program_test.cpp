@@ -187,6 +187,13 @@ TEST_F(DepthCameraProgram, RefusesOptionsOfCamerasForARecording) {
               HasSubstr(": holds all images; leave out source-depth"));
 }
 
+TEST_F(DepthCameraProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecording) {
+  const std::string config = folder_ + "/robot.conf";
+  std::ofstream(config) << "[depth_camera]\nsource-depth = /dev/video987\ngain = 3\n";
+  const RunResult result = write_log({"--config", config, "--source", folder_});
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
 TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
   EXPECT_THAT(error({"--source", "/dev/video0"}), HasSubstr("--source-depth"));

@@ -115,6 +115,32 @@ TEST_F(StereoCameraProgram, RefusesOptionsOfCamerasForARecording) {
   }
 }
 
+TEST_F(StereoCameraProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecording) {
+  write_pairs(folder_, 1, 100'000);
+  const std::string config = folder_ + "/robot.conf";
+  write_text(config,
+             "[stereo_camera]\nsource = /dev/video987\nsource-right = /dev/video986\n"
+             "camera-width = 640\ncamera-rate = 30\nexposure = 20\ngain = 3\n");
+  const auto play = [&](const std::string& recording, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> options = {"--config",      config,       "--source",  recording,
+                                        "--calibration", calibration_, "--lcm-url", "memq://"};
+    options.insert(options.end(), more.begin(), more.end());
+    return run(command(options));
+  };
+  ASSERT_EQ(write_log({"--source", folder_}).exit_code, 0);
+  for (const std::string& recording : {folder_, log_}) {
+    const RunResult played = play(recording);
+    EXPECT_EQ(played.exit_code, 0) << played.output;
+    EXPECT_THAT(played.output, HasSubstr("1 frames sent"));
+    EXPECT_THAT(play(recording, {"--gain=3"}).output,
+                HasSubstr(": is a recording; leave out gain, which"));
+    EXPECT_THAT(play(recording, {"--stereo_camera.gain=3"}).output,
+                HasSubstr(": is a recording; leave out gain, which"));
+  }
+  const RunResult live = run(command({"--config", config, "--calibration", calibration_}));
+  EXPECT_THAT(live.output, HasSubstr("/dev/video987: No such file or directory"));
+}
+
 TEST_F(StereoCameraProgram, WritesNoLogOverWhatItReads) {
   write_pairs(folder_, 2, 100'000);
   const std::string times = folder_ + "/timestamps.csv";
