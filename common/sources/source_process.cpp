@@ -106,16 +106,16 @@ void refuse_live_options(const std::string& recording, const std::vector<std::st
     if (parser.on_command_line(key)) given += (given.empty() ? "" : ", ") + key;
   if (!given.empty())
     throw config::UsageError(recording + ": is a recording; leave out " + given +
-                             ", which can be set for /dev/videoN only");
+                             " (for live sensors only)");
 }
 
 void keep_camera_options_out(SourceOptions& options, const std::string& second_key,
                              const config::Parser& parser) {
   if (is_camera(options.source) || !fs::exists(options.source)) return;
-  refuse_live_options(
-      options.source,
-      {"camera-width", "camera-height", "camera-rate", "camera-format", "exposure", "gain"},
-      parser);
+  refuse_live_options(options.source,
+                      {"camera-width", "camera-height", "camera-rate", "camera-format", "exposure",
+                       "gain", "pair-tolerance-ms", "open-timeout-s", "stall-timeout-s", "reopen"},
+                      parser);
   const bool holds_both = fs::is_directory(options.source) || is_lcm_log(options.source);
   const bool of_use = !holds_both && !is_camera(options.second_source);
   if (!parser.on_command_line(second_key)) {

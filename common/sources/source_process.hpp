@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/config/options.hpp"
 #include "common/lcm_io/log_file.hpp"
@@ -43,8 +44,12 @@ void declare(config::Section& section, SourceProcessOptions& options,
 void require_input(const SourceProcessOptions& options, const std::string& program,
                    bool second_will_do = false);
 
-/// Throws config::UsageError where the source is a recording, but the command line gives settings
-/// of cameras, or a second camera (its option is `second_key`) beside a folder or log. A robot's
+/// Throws config::UsageError where one of these options, which are for live sensors, stands on the
+/// command line beside a recording.
+void refuse_live_options(const std::string& recording, const std::vector<std::string>& keys,
+                         const config::Parser& parser);
+/// Throws config::UsageError where the source is a recording, but the command line gives options of
+/// live cameras, or a second camera (its option is `second_key`) beside a folder or log. A robot's
 /// configuration file may tell them: of no use then, and such a second camera is taken out.
 void keep_camera_options_out(SourceOptions& options, const std::string& second_key,
                              const config::Parser& parser);

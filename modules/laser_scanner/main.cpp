@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <limbcast/point_cloud_t.hpp>
 #include <optional>
 #include <string>
@@ -107,12 +108,14 @@ void check_limits(const CloudSourceParams& source) {
                            "; no point lies within");
 }
 
-void run(Options& options, const config::CommonOptions& common) {
+void run(Options& options, const config::Parser& parser) {
   if (options.source.source.empty()) {
     throw config::UsageError("--source is missing; see limbcast-laser-scanner --help");
   }
   if (begins_as_lcm_log(options.source.source))
     throw InputError(options.source.source + ": is an LCM log; play its clouds with lcm-logplayer");
+  if (std::filesystem::exists(options.source.source))
+    refuse_live_options(options.source.source, {"stall-timeout-s"}, parser);
   check_limits(options.source);
   options.process.source.source = options.source.source;  // a log must not be written over it
   options.process.source.loop = options.source.loop = options.process.source.loop;
@@ -133,7 +136,8 @@ void run(Options& options, const config::CommonOptions& common) {
     outlet.send_frame(options.cloud_channel, lcm_io::to_message(cloud));
   });
   const std::unique_ptr<CloudSource> source = open_cloud_source(options.source);
-  run_frames("laser_scanner", options.process, common, *source, sender, source->description());
+  run_frames("laser_scanner", options.process, parser.common(), *source, sender,
+             source->description());
 }
 
 }  // namespace
@@ -149,6 +153,6 @@ int main(int argc, char** argv) {
                           "publishes the clouds of a laser range finder, live or recorded");
     parser.add(section);
     if (!parser.parse(argc, argv)) return;
-    laser_scanner::run(options, parser.common());
+    laser_scanner::run(options, parser);
   });
 }

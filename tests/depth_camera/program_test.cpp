@@ -182,7 +182,7 @@ TEST_F(DepthCameraProgram, EndsWithCode2WithoutItsDevices) {
 
 TEST_F(DepthCameraProgram, RefusesOptionsOfCamerasForARecording) {
   EXPECT_THAT(error({"--source", folder_, "--gain", "3"}),
-              HasSubstr(": is a recording; leave out gain, which can be set for /dev/videoN only"));
+              HasSubstr(": is a recording; leave out gain (for live sensors only)"));
   EXPECT_THAT(error({"--source", folder_, "--source-depth", "/dev/video2"}),
               HasSubstr(": holds all images; leave out source-depth"));
 }

@@ -105,6 +105,19 @@ TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
               HasSubstr("'near-limit-m' is 3, must be below 'far-limit-m', 3"));
 }
 
+TEST_F(LaserScannerProgram, RefusesAnOptionOfLiveScannersForARecordingUnlessTheRobotsFileTellsIt) {
+  write_floor(folder_ + "/a.bin");
+  for (const std::string& recording : {folder_, folder_ + "/a.bin"}) {
+    const RunResult result = write_log({"--source", recording, "--stall-timeout-s", "5"});
+    EXPECT_EQ(result.exit_code, kWrongInput);
+    EXPECT_EQ(result.output,
+              "limbcast-laser-scanner: " + recording +
+                  ": is a recording; leave out stall-timeout-s (for live sensors only)\n");
+  }
+  std::ofstream(folder_ + "/robot.conf") << "[laser_scanner]\nstall-timeout-s = 5\n";
+  EXPECT_EQ(write_log({"--source", folder_, "--config", folder_ + "/robot.conf"}).exit_code, 0);
+}
+
 TEST_F(LaserScannerProgram, TellsOfALogByWhatIsInIt) {
   const auto error = [this](const std::string& name, const std::string& content) {
     const std::string path = folder_ + "/" + name;

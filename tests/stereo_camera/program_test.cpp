@@ -108,8 +108,13 @@ TEST_F(StereoCameraProgram, RefusesOptionsOfCamerasForARecording) {
     const std::string name = "limbcast-stereo-camera: " + recording;
     EXPECT_EQ(error({"--exposure", "20", "--gain", "3", "--camera-rate", "30"}),
               name +
-                  ": is a recording; leave out camera-rate, exposure, gain, which can be set "
-                  "for /dev/videoN only\n");
+                  ": is a recording; leave out camera-rate, exposure, gain (for live sensors "
+                  "only)\n");
+    EXPECT_EQ(error({"--pair-tolerance-ms=10", "--open-timeout-s=5", "--stall-timeout-s=2",
+                     "--reopen=false"}),
+              name +
+                  ": is a recording; leave out pair-tolerance-ms, open-timeout-s, "
+                  "stall-timeout-s, reopen (for live sensors only)\n");
     EXPECT_EQ(error({"--source-right", "/dev/video0"}),
               name + ": holds all images; leave out source-right\n");
   }
@@ -120,7 +125,8 @@ TEST_F(StereoCameraProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecordi
   const std::string config = folder_ + "/robot.conf";
   write_text(config,
              "[stereo_camera]\nsource = /dev/video987\nsource-right = /dev/video986\n"
-             "camera-width = 640\ncamera-rate = 30\nexposure = 20\ngain = 3\n");
+             "camera-width = 640\ncamera-rate = 30\nexposure = 20\ngain = 3\n"
+             "pair-tolerance-ms = 5\nopen-timeout-s = 5\nstall-timeout-s = 5\nreopen = false\n");
   const auto play = [&](const std::string& recording, const std::vector<std::string>& more = {}) {
     std::vector<std::string> options = {"--config",      config,       "--source",  recording,
                                         "--calibration", calibration_, "--lcm-url", "memq://"};
@@ -133,9 +139,9 @@ TEST_F(StereoCameraProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecordi
     EXPECT_EQ(played.exit_code, 0) << played.output;
     EXPECT_THAT(played.output, HasSubstr("1 frames sent"));
     EXPECT_THAT(play(recording, {"--gain=3"}).output,
-                HasSubstr(": is a recording; leave out gain, which"));
+                HasSubstr(": is a recording; leave out gain ("));
     EXPECT_THAT(play(recording, {"--stereo_camera.gain=3"}).output,
-                HasSubstr(": is a recording; leave out gain, which"));
+                HasSubstr(": is a recording; leave out gain ("));
   }
   const RunResult live = run(command({"--config", config, "--calibration", calibration_}));
   EXPECT_THAT(live.output, HasSubstr("/dev/video987: No such file or directory"));
