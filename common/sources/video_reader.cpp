@@ -1,6 +1,7 @@
 #include "common/sources/video_reader.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -19,7 +20,12 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
-bool is_device(const std::string& source) { return starts_with(source, "/dev/"); }
+/// A device that is unplugged is one too; what stands in /dev/shm is none.
+bool is_device(const std::string& source) {
+  std::error_code unreachable;
+  const std::filesystem::file_status status = std::filesystem::status(source, unreachable);
+  return starts_with(source, "/dev/") && !is_regular_file(status) && !is_directory(status);
+}
 
 class VideoReader : public FrameReader {
  public:

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <opencv2/videoio.hpp>
 
 #include "common/input_error.hpp"
@@ -98,6 +100,16 @@ TEST(OpenSource, NamesWhatDoesNotExist) {
 TEST(OpenSource, NamesADeviceThatIsNoCamera) {
   EXPECT_THAT(error_of_opening("/dev/null", stereo_format()),
               HasSubstr("/dev/null: gives no pictures"));
+}
+
+TEST(OpenSource, TakesRecordingsInMemoryForNoDevices) {
+  std::string folder = "/dev/shm/limbcast_test_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string video = write_video(folder + "/both.avi", {128, 48}, 1, 90);
+  EXPECT_EQ(open_source(options_for(video), stereo_format())->next()->first.width, 64);
+  EXPECT_THAT(error_of_opening(folder, stereo_format()),
+              HasSubstr(folder + ": has no NAME_left and NAME_right pictures"));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(OpenSource, WantsADepthCameraBesideTheColourCamera) {
