@@ -169,6 +169,12 @@ void Parser::assign_positionals(const std::vector<std::string>& values) const {
   const bool takes_all = !positionals_.empty() && positionals_.back().targets != nullptr;
   if (values.size() > positionals_.size() && !takes_all)
     refuse_argument(values[positionals_.size()]);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // A shell's variable that is not set would make a live one of a program that reads a log.
+    if (values[i].empty())
+      throw UsageError("command line: " + positionals_[std::min(i, positionals_.size() - 1)].name +
+                       " is ''; give a name or leave it out");
+  }
   for (std::size_t i = 0; i < positionals_.size(); ++i) {
     if (i < values.size() && positionals_[i].targets != nullptr)
       positionals_[i].targets->assign(values.begin() + static_cast<std::ptrdiff_t>(i),

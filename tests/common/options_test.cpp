@@ -129,6 +129,22 @@ TEST_F(OptionsTest, SaysHowASwitchIsSetWhereItsValueStandsAlone) {
             "command line: unexpected argument 'false'; write --key=false");
 }
 
+TEST(OptionalArguments, AreNotEmpty) {
+  std::string log;
+  std::vector<std::string> more;
+  Parser parser("limbcast-test", "test");
+  parser.add_positional("[LOG]", log, "log");
+  parser.add_positional("[MORE...]", more, "more");
+  const auto error = [&parser](std::vector<const char*> words) {
+    words.insert(words.begin(), "limbcast-test");
+    return test::error_of<UsageError>(
+        [&] { parser.parse(static_cast<int>(words.size()), words.data()); });
+  };
+  EXPECT_EQ(error({""}), "command line: [LOG] is ''; give a name or leave it out");
+  EXPECT_EQ(error({"a.log", "b", ""}),
+            "command line: [MORE...] is ''; give a name or leave it out");
+}
+
 TEST(OptionalArguments, KeepTheirDefaultWhereNoneIsGiven) {
   for (const bool given : {false, true}) {
     std::vector<std::string> sets = {"usual"};
