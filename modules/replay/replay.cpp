@@ -95,8 +95,10 @@ class Replay {
     for (const auto& [sensor, level] : contents_.first_level)
       contents_.frames += static_cast<int>(frames.at({sensor, level}).size());
     if (contents_.frames == 0)
-      throw UsageError(options_.in +
-                       ": holds no images, clouds or segments to begin with; see --from and the "
+      throw UsageError((reader.torn_bytes() > 0
+                            ? lcm_io::torn_end(options_.in, reader.torn_bytes()) + "; what is left"
+                            : options_.in + ":") +
+                       " holds no images, clouds or segments to begin with; see --from and the "
                        "options of channels");
   }
 

@@ -201,7 +201,12 @@ TEST_F(ReplayProgram, EndsWithTwoForLogsThatCannotBeUsed) {
   expect_wrong_usage({write_text("empty.log", ""), out}, "is empty");
   expect_wrong_usage({write_text("foreign.log", "just a text"), out}, "is no LCM log");
   expect_wrong_usage({write("truth.log", on_channel(two_frames_, "GROUND_TRUTH")), out},
-                     "holds no images, clouds or segments");
+                     "truth.log: holds no images, clouds or segments");
+  const std::string torn = write("torn.log", on_channel(two_frames_, "STEREO_IMAGES"));
+  std::filesystem::resize_file(torn, 1000);
+  expect_wrong_usage({torn, out},
+                     "torn.log: is torn, its last 1000 bytes are no whole message and were left "
+                     "out; what is left holds no images, clouds or segments");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
