@@ -107,6 +107,10 @@ void run_merge(int argc, const char* const* argv) {
   parser.add_positional("IN.log...", options.in, "logs to read");
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
+  // Else OUT.log, forgotten, would be the first of two that are to be merged, and be lost.
+  if (options.in.size() < 2)
+    throw config::UsageError("command line: " + options.in.front() +
+                             " alone gives nothing to merge; give OUT.log and two logs or more");
   config::configure_log("log", parser.common().log_level);
   report(merge(options), options.out);
 }

@@ -192,6 +192,16 @@ TEST_F(Merge, WorksFromTheCommandLine) {
   EXPECT_EQ(test::run({test::program("limbcast-log"), "merge", out_}).exit_code, 2);
 }
 
+TEST_F(Merge, LosesNoLogWhereTheOneToWriteIsForgotten) {
+  write(a_, {{1, "a"}});
+  write(b_, {{2, "b"}});
+  const auto run = test::run({test::program("limbcast-log"), "merge", a_, b_});
+  EXPECT_EQ(run.exit_code, 2) << run.output;
+  EXPECT_EQ(run.output, "limbcast-log: command line: " + b_ +
+                            " alone gives nothing to merge; give OUT.log and two logs or more\n");
+  EXPECT_EQ(lcm_io::LogReader(a_).next()->utime, 1);
+}
+
 TEST_F(Merge, RefusesToOverwriteAnInput) {
   write(a_, {{1, "a"}});
   EXPECT_THROW(merge({a_, {a_}, false}), config::UsageError);
