@@ -54,7 +54,8 @@ class FreeSpaceTerm : public ::testing::Test {
     workspace.cones.clear();
     refined::NormalEquations equations;
     equations.clear(true);
-    add_free_space_term(cones, *observation, refined::arm_bit(kSide), 1.0, workspace, equations);
+    add_free_space_term(cones, *observation, refined::arm_bit(kSide),
+                        RefinedParams{}.silhouette_weight, workspace, equations);
     return equations.cost;
   }
 

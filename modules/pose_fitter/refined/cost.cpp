@@ -12,7 +12,7 @@ CostTerms evaluate(const BodyState& body, const Observation& observation, const 
   workspace.cones.clear();
   add_surface_term(cones, stage, params.robust_sigmas, workspace, equations);
   terms.surface = equations.cost;
-  add_free_space_term(cones, observation, stage.parts, params.free_space_weight, workspace,
+  add_free_space_term(cones, observation, stage.parts, params.silhouette_weight, workspace,
                       equations);
   add_skin_term(cones, observation, stage.parts, workspace, equations);
   terms.free_space = equations.cost - terms.surface;

@@ -48,7 +48,7 @@ void add_surface_term(const Cones& cones, const FitStage& stage, Real robust_sig
 
 /// No part stands where the sensor saw through or before the surface it saw.
 void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
-                         Real weight, Workspace& workspace, NormalEquations& equations);
+                         Real silhouette_weight, Workspace& workspace, NormalEquations& equations);
 
 /// Hands are skin-coloured, most often: they stand where such pixels are.
 void add_skin_term(const Cones& cones, const Observation& observation, unsigned parts,

@@ -13,9 +13,6 @@ constexpr int kSamples = 4;
 constexpr Real kRadiusShare = 0.75;
 constexpr Real kClearanceSigmaM = 0.015;
 constexpr Real kClearanceLimitSigmas = 10.0;
-/// Against the rays of depth: silhouettes are cut wrongly more often than depths are measured so.
-/// Tuned.
-constexpr Real kClearanceWeight = 0.5;
 /// Where a surface that is not the person's lies less than this behind a limb, the sensor hardly
 /// saw through: most likely it is the limb, cut off as somebody else's or nobody's [m]. Tuned.
 constexpr float kSeenThroughM = 0.45F;
@@ -68,7 +65,7 @@ bool lies_at_other_surface(const Observation& observation, int u, int v, Real sa
 }  // namespace
 
 void add_free_space_term(const Cones& cones, const Observation& observation, unsigned parts,
-                         Real weight, Workspace& workspace, NormalEquations& equations) {
+                         Real silhouette_weight, Workspace& workspace, NormalEquations& equations) {
   const PinholeCamera& camera = observation.camera;
   Real cost = 0.0;
   const auto add = [&](const Sample& sample, Real residual, const Bound& bound,
@@ -82,7 +79,7 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
                         static_cast<float>(residual),
                         static_cast<float>(bound.weight * information * shrink * shrink));
   };
-  const Bound silhouette{kClearanceWeight * weight, kClearanceSigmaM, kClearanceLimitSigmas};
+  const Bound silhouette{silhouette_weight, kClearanceSigmaM, kClearanceLimitSigmas};
   for (int c = 0; c < kConeCount; ++c) {
     const Part part = cone_specs()[c].part;
     if ((bit(part) & parts) == 0) continue;
@@ -104,7 +101,7 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
       if (surface <= 0.0) continue;
       const Real sigma = kDepthSigmaM + observation.noise.sigma_m(static_cast<float>(surface));
       const Real before = surface - (center.z() - kDepthShare * radius) - 0.5 * sigma;
-      if (before > 0.0) add(sample, before, {weight, sigma, kDepthLimitSigmas}, {0.0, 0.0, -1.0});
+      if (before > 0.0) add(sample, before, {1.0, sigma, kDepthLimitSigmas}, {0.0, 0.0, -1.0});
     }
   }
   equations.cost += cost;

@@ -36,8 +36,10 @@ struct RefinedParams {
   double arm_search_surface_sigma_m = 0.03;
   /// Residuals beyond this many sigmas stop counting (Geman-McClure). Tuned.
   double robust_sigmas = 2.0;
-  /// Cost of a body part where the sensor saw through, against the surface. Tuned.
-  double free_space_weight = 1.0;
+  /// Cost of a body part outside of the person's silhouette, against the surface and against a part
+  /// before the surface that was seen: silhouettes are cut wrongly more often than depths are
+  /// measured so. Tuned.
+  double silhouette_weight = 0.5;
   /// Joints against the rays on which the image's networks see them: spread across the ray [m] and
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
