@@ -7,6 +7,7 @@
 set -euo pipefail
 source "$(dirname "$0")/../../modules/usage.sh"
 check_arguments 1 2 "$@"
+command -v debootstrap >/dev/null || { echo "bare_debian.sh: debootstrap is missing; apt-get install debootstrap" >&2; exit 2; }
 packages=$(realpath "$1")
 root=${2:-/tmp/limbcast-bare-debian}
 repository=$(realpath "$(dirname "$0")/../..")
