@@ -36,11 +36,16 @@ inline bool is_open_pipe(const std::string& path) {
   return statfs(path.c_str(), &file_system) == 0 && file_system.f_type == PIPEFS_MAGIC;
 }
 
-/// For what is read once, from begin to end. Throws InputError, with `remedy` ("give a picture") at
-/// its end, for all but files, pipes of the shell, and what the reader will find to be missing.
+/// The same of what is read once, from begin to end: empty for pipes of the shell too.
+inline std::string kind_of_no_stream(const std::string& path) {
+  return is_open_pipe(path) ? "" : kind_of_no_file(path);
+}
+
+/// For what is read once. Throws InputError, with `remedy` ("give a picture") at its end, for all
+/// but files, pipes of the shell, and what the reader will find to be missing.
 inline void check_is_file(const std::string& path, const std::string& remedy) {
-  const std::string kind = kind_of_no_file(path);
-  if (!kind.empty() && !is_open_pipe(path)) throw InputError(path + ": is " + kind + "; " + remedy);
+  const std::string kind = kind_of_no_stream(path);
+  if (!kind.empty()) throw InputError(path + ": is " + kind + "; " + remedy);
 }
 
 }  // namespace limbcast

@@ -213,9 +213,8 @@ void Parser::assign(const std::string& where, const std::string& section, const 
 }
 
 void Parser::read_config_file(const std::string& path) {
-  const std::string kind = kind_of_no_file(path);
-  if (!kind.empty() && !is_open_pipe(path))
-    throw UsageError(path + ": is " + kind + "; give a file to --config");
+  const std::string kind = kind_of_no_stream(path);
+  if (!kind.empty()) throw UsageError(path + ": is " + kind + "; give a file to --config");
   std::ifstream in(path);
   if (!in) throw UsageError(path + ": cannot be read; give an existing file to --config");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -287,12 +286,10 @@ std::string text_of(const std::filesystem::filesystem_error& error) {
 /// the next frame. glibc gives such memory back to the kernel each time, which then clears it anew:
 /// of a dense scan's frame that took a third of the time.
 void keep_freed_memory() {
-#ifdef __GLIBC__
   constexpr int kLargestThatIsKept_bytes = 32 << 20;  // the most that glibc takes
   constexpr int kMostThatIsKept_bytes = 256 << 20;
   mallopt(M_MMAP_THRESHOLD, kLargestThatIsKept_bytes);
   mallopt(M_TRIM_THRESHOLD, kMostThatIsKept_bytes);
-#endif
 }
 
 }  // namespace
