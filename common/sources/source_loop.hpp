@@ -69,19 +69,23 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
 
 template <class Frame>
 void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std::string& path) {
-  lcm_io::LogWriter log(path);
-  Outlet outlet(log);
+  std::optional<lcm_io::LogWriter> log;
   while (!source.ended() && !lcm_io::stop_requested()) {
-    if (std::optional<Frame> frame = source.next()) sender.send(outlet, std::move(*frame));
+    std::optional<Frame> frame = source.next();
+    if (!frame) continue;
+    // Not before: an earlier log is kept where the source has nothing to put in its place.
+    if (!log) log.emplace(path);
+    Outlet outlet(*log);
+    sender.send(outlet, std::move(*frame));
   }
-  if (!source.problem().empty()) outlet.report_problem(source.problem());
-  log.close();
+  if (!source.problem().empty()) config::log(config::LogLevel::kError, source.problem());
+  if (log) log->close();
   // A live source has no end: to be told to is how its recording is complete.
   if (source.ended() || source.live()) return;
   const std::optional<std::int64_t> num_frames = source.num_frames();
   throw std::runtime_error("interrupted: " + std::to_string(sender.num_sent()) +
                            (num_frames ? " of " + std::to_string(*num_frames) : "") + " frames; " +
-                           path + " holds what was sent so far");
+                           path + (log ? " holds what was sent so far" : " was not written"));
 }
 
 /// Sends the frames of the source until it ends or the program is told to: a recording at its rate,

@@ -166,6 +166,15 @@ TEST_F(LaserScannerProgram, SendsIntensitiesAndRingsOfAVelodyneAndReplayKeepsThe
   }
 }
 
+TEST_F(LaserScannerProgram, KeepsAnEarlierLogWhereTheCloudCannotBeRead) {
+  write_floor(folder_ + "/a.bin");
+  ASSERT_EQ(write_log({"--source", folder_ + "/a.bin"}).exit_code, 0);
+  const auto size = std::filesystem::file_size(log_);
+  std::ofstream(folder_ + "/broken.pcd") << "# .PCD v0.7\nVERSION 0.7\n";
+  EXPECT_EQ(write_log({"--source", folder_ + "/broken.pcd"}).exit_code, kWrongInput);
+  EXPECT_EQ(std::filesystem::file_size(log_), size);
+}
+
 TEST_F(LaserScannerProgram, GoesOnWithATornRecordingAndSaysSoOnce) {
   const std::string packets = laser_scanner::pcap_of(laser_scanner::vlp16_turns(2, 4.0));
   std::ofstream(folder_ + "/a.pcap", std::ios::binary) << packets.substr(0, packets.size() - 1);
