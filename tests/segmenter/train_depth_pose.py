@@ -5,7 +5,7 @@
 
 Files are those of limbcast-write-depth-pictures. After each few epochs it prints what the network sees of the files to
 check by. train_depth_pose.sh makes the pictures and runs it. Needs Debian's python3-torch and python3-flatbuffers. On
-processors with AMX layers are computed in brain floats of 16 bits.
+processors that compute with brain floats of 16 bits layers are computed in these.
 """
 import argparse
 import os
@@ -248,9 +248,10 @@ def loss_of(output, joints, is_person):
     return 0.5 * places + off(offset_u, du) + off(offset_v, dv) + off(depth, depths) + 0.3 * sights + persons
 
 
-def has_amx():
+def has_brain_floats():
     with open("/proc/cpuinfo", encoding="ascii") as file:
-        return "amx_bf16" in file.read()
+        flags = file.read()
+    return "amx_bf16" in flags or "avx512_bf16" in flags
 
 
 def computed(network, x):
@@ -305,7 +306,7 @@ def check(network, path):
           f"{(~is_person).sum()} things", flush=True)
 
 
-BRAIN_FLOATS = has_amx()  # elsewhere they are slow
+BRAIN_FLOATS = has_brain_floats()  # elsewhere they are slow
 
 
 def pictures_of_epoch(is_person, random):
