@@ -8,7 +8,7 @@
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
 # Run it after segments or range images changed. Training takes an hour and a half on two cores without
-# brain floats of 16 bits, a third of that with them.
+# brain floats of 16 bits; with them a step takes a third of the time.
 set -euo pipefail
 source "$(dirname "$0")/../../modules/usage.sh"
 check_arguments 2 3 "$@"
