@@ -1,5 +1,9 @@
 #include "common/lcm_io/log_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -84,8 +88,20 @@ void LogReader::seek(std::int64_t position_bytes) {
   position_bytes_ = position_bytes;
 }
 
+FileLock::FileLock(const std::string& path)
+    : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0)
+    throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
+  // File systems without locks go without.
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw config::UsageError(path + ": is being written by another process; choose another file");
+}
+
+FileLock::~FileLock() { ::close(descriptor_); }
+
 LogWriter::LogWriter(const std::string& path)
-    : path_(path), log_(lcm_eventlog_create(path.c_str(), "w")) {
+    : path_(path), lock_(path), log_(lcm_eventlog_create(path.c_str(), "w")) {
   if (log_ == nullptr)
     throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
 }

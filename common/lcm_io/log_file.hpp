@@ -42,10 +42,24 @@ class LogReader {
   std::int64_t size_bytes_ = 0, position_bytes_ = 0, torn_bytes_ = 0, damaged_bytes_ = 0;
 };
 
+/// Keeps a file that is about to be written from other processes that write it by LogWriter, too.
+class FileLock {
+ public:
+  /// Makes the file where there is none and leaves what is in it. Throws config::UsageError where
+  /// it cannot be written or another process writes it.
+  explicit FileLock(const std::string& path);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 /// Writes an LCM log. What was written stays readable when the program ends early.
 class LogWriter {
  public:
-  /// Throws config::UsageError where the file cannot be made.
+  /// Throws config::UsageError where the file cannot be made or another process writes it.
   explicit LogWriter(const std::string& path);
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
@@ -69,6 +83,7 @@ class LogWriter {
   [[noreturn]] void fail() const;
 
   std::string path_;
+  FileLock lock_;
   lcm_eventlog_t* log_;
 };
 

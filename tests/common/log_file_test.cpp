@@ -93,6 +93,25 @@ TEST_F(LogFile, SaysThatAFileCannotBeWritten) {
   EXPECT_THROW(LogWriter("/nowhere/out.log"), config::UsageError);
 }
 
+TEST_F(LogFile, IsNotWrittenByTwo) {
+  const std::string path = folder_ / "out.log";
+  LogWriter first(path);
+  first.write(LogEvent{1, "CHANNEL", {1, 2, 3}});
+  try {
+    const LogWriter second(path);
+    ADD_FAILURE() << "a second one may write";
+  } catch (const config::UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("out.log: is being written by another process"));
+  }
+  first.close();
+  EXPECT_TRUE(LogReader(path).next()) << "what the first one wrote is kept";
+}
+
+TEST_F(LogFile, MayBeWrittenAnewWhenItsWriterIsGone) {
+  write_three_events();
+  EXPECT_NO_THROW(write_three_events());
+}
+
 TEST_F(LogFile, SaysThatTheDiskIsFull) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   LogWriter writer("/dev/full");
