@@ -108,12 +108,15 @@ bool calibrate(const Options& options) {
   const StereoFit fit = fit_stereo(collector.views(), board, collector.image_size());
   print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
   print_advice(advise(fit, collector.image_size()));
+  const bool accepted = accept(fit, collector.image_size());
+  if (accepted) {
+    check_not_told_to_end();
+    write_stereo_calibration(options.output, fit.calibration);
+    print("written: " + options.output + "\n");
+  }
+  // Last: a picture that cannot be written costs no calibration.
   if (!options.picture.empty()) write_picture(options.picture, draw_report(fit));
-  if (!accept(fit, collector.image_size())) return false;
-  check_not_told_to_end();
-  write_stereo_calibration(options.output, fit.calibration);
-  print("written: " + options.output + "\n");
-  return true;
+  return accepted;
 }
 
 }  // namespace

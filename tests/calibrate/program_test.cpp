@@ -68,13 +68,31 @@ TEST(CalibrateProgram, CalibratesARealPairOfCameras) {
   EXPECT_FALSE(cv::imread(out / "report.png").empty());
 }
 
+void write_rendered_pairs(const TemporaryFolder& folder) {
+  const Board board;
+  int number = 10;
+  for (const BoardPose& pose : varied_poses(board, 10))
+    write_pair(folder, render_board(board, pose, true_cameras(), "p" + std::to_string(number++)));
+}
+
+TEST(CalibrateProgram, KeepsTheCalibrationWhereThePictureCannotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const TemporaryFolder folder;
+  write_rendered_pairs(folder);
+  const TemporaryFolder out;
+  fs::create_symlink("/dev/full", out / "report.png");
+  const Outcome outcome =
+      run_program("limbcast-calibrate", {"--source", folder.path(), "--output",
+                                         out / "calibration.yml", "--picture", out / "report.png"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("report.png: cannot be written"));
+  EXPECT_THAT(outcome.out, HasSubstr("written: " + (out / "calibration.yml")));
+  EXPECT_NO_THROW(read_stereo_calibration(out / "calibration.yml"));
+}
+
 TEST(CalibrateProgram, CalibratesRenderedCamerasAndNamesBadPairs) {
   const TemporaryFolder folder;
-  const Board board;
-  for (const BoardPose& pose : varied_poses(board, 10)) {
-    static int number = 10;
-    write_pair(folder, render_board(board, pose, true_cameras(), "p" + std::to_string(number++)));
-  }
+  write_rendered_pairs(folder);
   write_pair(folder, {"empty", cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)),
                       cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))});
   const TemporaryFolder out;
