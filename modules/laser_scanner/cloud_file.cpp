@@ -218,13 +218,26 @@ RawCloud read_ply(const std::string& bytes, std::size_t max_points, const std::s
                         path);
 }
 
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 RawCloud read_kitti(const std::string& bytes, std::size_t max_points, const std::string& path) {
   const PointTable table{{{"x", NumberKind::kFloat, 4, 1},
                           {"y", NumberKind::kFloat, 4, 1},
                           {"z", NumberKind::kFloat, 4, 1},
                           {"intensity", NumberKind::kFloat, 4, 1}},
                          bytes.size() / 16};
-  if (bytes.size() % table.row_bytes() != 0) fail(path, "is torn, no multiple of 16 bytes");
+  if (ends_with(path, ".pcd.bin")) {
+    throw InputError(path +
+                     ": is called like nuScenes' clouds, of five numbers a point where "
+                     "KITTI's have four; convert it to PCD or KITTI .bin");
+  }
+  if (bytes.size() % table.row_bytes() != 0) {
+    throw InputError(path +
+                     ": is torn or not KITTI's, no multiple of 16 bytes (x, y, z and "
+                     "intensity as floats); copy it again or convert it to PCD");
+  }
   check_num_points(table, max_points, path);
   return points_of_rows(table, {bytes.begin(), bytes.end()}, path);
 }

@@ -79,11 +79,10 @@ Stamp stamp_of(const CloudSourceParams& params, std::int64_t utime, std::int64_t
 class CloudFiles : public CloudSource {
  public:
   CloudFiles(CloudSourceParams params, Recording recording)
-      : params_(std::move(params)), recording_(std::move(recording)) {
-    const std::string first = recording_.frames.front().first_path;
-    const bool is_kitti = extension_of(first) == ".bin";
-    axes_.emplace(axes_of(params_, is_kitti ? "-y,-z,x" : "x,y,z"), params_.unit_m);
-  }
+      : params_(std::move(params)),
+        recording_(std::move(recording)),
+        axes_(axes_of(params_, "x,y,z"), params_.unit_m),
+        kitti_axes_(axes_of(params_, "-y,-z,x"), params_.unit_m) {}
 
   std::optional<CloudFrame> next() override {
     if (ended()) return std::nullopt;
@@ -107,7 +106,8 @@ class CloudFiles : public CloudSource {
     CloudFrame frame;
     frame.stamp = stamp_of(params_, recorded.time.utime + loop_offset_us_, sequence_);
     const RawCloud raw = read_cloud_file(recorded.first_path, params_.max_points);
-    frame.cloud = converted(raw, *axes_, params_);
+    const bool is_kitti = extension_of(recorded.first_path) == ".bin";
+    frame.cloud = converted(raw, is_kitti ? kitti_axes_ : axes_, params_);
     frame.fault = fault_of(frame.cloud, raw, params_, recorded.first_path,
                            "give --unit-m 0.001 where they are in millimetres");
     if (recorded.time.down) {
@@ -120,7 +120,7 @@ class CloudFiles : public CloudSource {
 
   CloudSourceParams params_;
   Recording recording_;
-  std::optional<Axes> axes_;
+  Axes axes_, kitti_axes_;
   std::size_t index_ = 0;
   std::int64_t sequence_ = 0, loop_offset_us_ = 0;
 };

@@ -1,9 +1,10 @@
 #include "modules/laser_scanner/point_table.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <sstream>
 
 #include "common/input_error.hpp"
 
@@ -109,6 +110,32 @@ std::uint16_t read_ring(const Place& place, const std::uint8_t* row, const std::
   return static_cast<std::uint16_t>(ring);
 }
 
+/// The column of each number of a row.
+std::vector<const Column*> columns_of_numbers(const PointTable& table) {
+  std::vector<const Column*> columns;
+  for (const Column& column : table.columns)
+    columns.insert(columns.end(), static_cast<std::size_t>(column.count), &column);
+  return columns;
+}
+
+std::vector<double> numbers_of_line(const std::string& text, std::size_t begin, std::size_t end,
+                                    const std::string& where) {
+  constexpr const char* kBlank = " \t\f\v";
+  std::vector<double> numbers;
+  for (std::size_t at = text.find_first_not_of(kBlank, begin); at < end;
+       at = text.find_first_not_of(kBlank, at)) {
+    const std::size_t word_end = std::min(text.find_first_of(" \t\f\v\r\n", at), text.size());
+    char* read_to = nullptr;
+    numbers.push_back(std::strtod(&text[at], &read_to));
+    if (read_to != &text[word_end]) {
+      throw InputError(where + ": '" + text.substr(at, word_end - at) +
+                       "' is no number; copy it again");
+    }
+    at = word_end;
+  }
+  return numbers;
+}
+
 }  // namespace
 
 std::size_t PointTable::row_bytes() const {
@@ -151,22 +178,23 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
 
 std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::string& text,
                                        const std::string& where) {
-  std::istringstream words(text);
+  const std::vector<const Column*> columns = columns_of_numbers(table);
   std::vector<std::uint8_t> bytes;
-  std::string word;
-  for (std::size_t i = 0; i < table.num_points; ++i) {
-    for (const Column& column : table.columns) {
-      for (int n = 0; n < column.count; ++n) {
-        if (!(words >> word)) return bytes;
-        char* end = nullptr;
-        const double value = std::strtod(word.c_str(), &end);
-        if (*end != '\0') {
-          throw InputError(std::string(where).append(": '").append(word).append(
-              "' is no number; copy it again"));
-        }
-        store_number(column, value, bytes);
-      }
+  std::size_t row = 0;
+  for (std::size_t begin = 0; row < table.num_points && begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+    const std::vector<double> numbers = numbers_of_line(text, begin, end, where);
+    const bool last = end == text.size();
+    begin = end + 1;
+    if (numbers.empty()) continue;
+    ++row;
+    // The row in which the text ends may be torn; that is told by its bytes.
+    if (numbers.size() > columns.size() || (numbers.size() < columns.size() && !last)) {
+      throw InputError(where + ": row " + std::to_string(row) + " holds " +
+                       std::to_string(numbers.size()) + " numbers, its header tells " +
+                       std::to_string(columns.size()) + "; write it again or correct it");
     }
+    for (std::size_t i = 0; i < numbers.size(); ++i) store_number(*columns[i], numbers[i], bytes);
   }
   return bytes;
 }

@@ -32,7 +32,9 @@ struct PointTable {
 RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>& bytes,
                         const std::string& where);
 
-/// Rows in the machine's numbers from text: one number after the other.
+/// Rows in the machine's numbers from text, a line each; what follows them is not read. Throws
+/// InputError where a line holds other than as many numbers as a row has, but for one in which the
+/// text ends.
 std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::string& text,
                                        const std::string& where);
 

@@ -193,6 +193,21 @@ TEST_F(CloudFile, WithMorePointsThanCanBeSentIsNamed) {
               HasSubstr("tells '9223372036854775808' points"));
 }
 
+TEST_F(CloudFile, OfTextMustHaveAsManyNumbersInARowAsItsHeaderTells) {
+  EXPECT_THAT(error("a.pcd", pcd_header("ascii", 2) + "1 2 3 4 5\n1 2 3 4 5\n"),
+              HasSubstr("a.pcd: row 1 holds 5 numbers, its header tells 4"));
+  EXPECT_THAT(error("a.pcd", pcd_header("ascii", 3) + "1 2 3 4\n\n1 2 3\n1 2 3 4\n4\n"),
+              HasSubstr("row 2 holds 3 numbers"));
+  EXPECT_THAT(error("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                    "property float y\nproperty float z\nend_header\n1 2 3 4\n"),
+              HasSubstr("a.ply: row 1 holds 4 numbers, its header tells 3"));
+}
+
+TEST_F(CloudFile, OfNuScenesIsNotTakenForKittis) {
+  EXPECT_THAT(error("a.pcd.bin", std::string(80, '\0')), HasSubstr("nuScenes"));
+}
+
 TEST_F(CloudFile, ThatCannotBeUsedIsNamed) {
   EXPECT_THAT(error("a.pcd", ""), HasSubstr("a.pcd: is empty"));
   EXPECT_THAT(error("a.pcd", "not a cloud"), HasSubstr("is neither PCD, PLY nor KITTI"));

@@ -151,6 +151,20 @@ TEST_F(Recorded, FolderGivesCloudsWithTimesGravityAndTruth) {
   EXPECT_TRUE(source->ended());
 }
 
+TEST_F(Recorded, FolderOfSeveralKindsTurnsEachFileAsItsKindDoes) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "DATA ascii\n";
+  const std::vector<float> row = {5.0F, -1.0F, 0.5F, 0.25F};
+  std::string bytes(row.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), row.data(), bytes.size());
+  for (const char* kitti : {"a.bin", "c.bin"}) folder_.write(kitti, bytes);
+  folder_.write("b.pcd", header + "1 -0.5 5\n");
+  const auto source = open_cloud_source(params(folder_.path()));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(source->next().value().cloud.points.at(0), Eigen::Vector3f(1.0F, -0.5F, 5.0F)) << i;
+}
+
 TEST_F(Recorded, FolderGivesCloudsOfNamesInCapitalsAndNoFolders) {
   const std::string row(16, '\0');
   for (const char* name : {"a.bin", "b.BIN", "c.Bin"}) folder_.write(name, row);
