@@ -292,6 +292,10 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
                   "some percent, %.0f %% or more give a better result",
                   100.0 * coverage, 100.0 * params.enough_coverage));
   }
+  if (T.norm() < params.min_usual_baseline_m || T.norm() > params.max_usual_baseline_m)
+    verdict.warnings.push_back(
+        formatted("by this the cameras are %.4g mm apart; is --square-mm in millimetres?",
+                  kMillimetersPerMeter<double> * T.norm()));
   if (static_cast<int>(fit.views.size()) < params.enough_views)
     verdict.warnings.push_back(formatted("only %zu views; %d or more give a better result",
                                          fit.views.size(), params.enough_views));

@@ -81,6 +81,9 @@ struct VerdictParams {
   /// Less coverage and fewer views are warnings.
   double enough_coverage = 0.35;
   int enough_views = 10;
+  /// Cameras nearer to one another or farther apart are a warning [m]: a square was rather told in
+  /// centimetres or metres.
+  double min_usual_baseline_m = 0.015, max_usual_baseline_m = 1.0;
 };
 
 Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params = {});

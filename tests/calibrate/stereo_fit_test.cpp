@@ -126,6 +126,14 @@ TEST(Judge, WarnsWhereCornersAreNotCovered) {
   EXPECT_THAT(verdict.warnings, Contains(HasSubstr("the boards cover 30 % of the image")));
 }
 
+TEST(Judge, WarnsWhereASquareWasToldInCentimetresOrMetres) {
+  for (const double factor : {0.1, 1000.0}) {
+    StereoFit fit = good_fit();
+    fit.calibration.T *= factor;
+    EXPECT_THAT(judge(fit, 0.8).warnings, Contains(HasSubstr("is --square-mm in millimetres?")));
+  }
+}
+
 TEST(Advise, AsksForNothingMoreWhenViewsAreVaried) {
   const Board board;
   const StereoFit fit =
