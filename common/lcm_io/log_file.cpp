@@ -52,6 +52,10 @@ void check_is_log(const std::string& path) {
     throw config::UsageError(path + ": is no LCM log; give a log made by lcm-logger");
 }
 
+[[noreturn]] void refuse_to_write(const std::string& path) {
+  throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
+}
+
 }  // namespace
 
 LogReader::LogReader(const std::string& path) {
@@ -90,8 +94,7 @@ void LogReader::seek(std::int64_t position_bytes) {
 
 FileLock::FileLock(const std::string& path)
     : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0)
-    throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
+  if (descriptor_ < 0) refuse_to_write(path);
   // File systems without locks go without.
   if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
@@ -102,8 +105,7 @@ FileLock::~FileLock() { ::close(descriptor_); }
 
 LogWriter::LogWriter(const std::string& path)
     : path_(path), lock_(path), log_(lcm_eventlog_create(path.c_str(), "w")) {
-  if (log_ == nullptr)
-    throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
+  if (log_ == nullptr) refuse_to_write(path);
 }
 
 LogWriter::~LogWriter() {

@@ -218,17 +218,13 @@ RawCloud read_ply(const std::string& bytes, std::size_t max_points, const std::s
                         path);
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 RawCloud read_kitti(const std::string& bytes, std::size_t max_points, const std::string& path) {
   const PointTable table{{{"x", NumberKind::kFloat, 4, 1},
                           {"y", NumberKind::kFloat, 4, 1},
                           {"z", NumberKind::kFloat, 4, 1},
                           {"intensity", NumberKind::kFloat, 4, 1}},
                          bytes.size() / 16};
-  if (ends_with(path, ".pcd.bin")) {
+  if (extension_of(std::filesystem::path(path).stem().string()) == ".pcd") {
     throw InputError(path +
                      ": is called like nuScenes' clouds, of five numbers a point where "
                      "KITTI's have four; convert it to PCD or KITTI .bin");

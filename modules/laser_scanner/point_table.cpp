@@ -118,10 +118,11 @@ std::vector<const Column*> columns_of_numbers(const PointTable& table) {
   return columns;
 }
 
-std::vector<double> numbers_of_line(const std::string& text, std::size_t begin, std::size_t end,
-                                    const std::string& where) {
+/// Puts those between `begin` and `end` in place of what `numbers` holds.
+void read_numbers(const std::string& text, std::size_t begin, std::size_t end,
+                  const std::string& where, std::vector<double>& numbers) {
   constexpr const char* kBlank = " \t\f\v";
-  std::vector<double> numbers;
+  numbers.clear();
   for (std::size_t at = text.find_first_not_of(kBlank, begin); at < end;
        at = text.find_first_not_of(kBlank, at)) {
     const std::size_t word_end = std::min(text.find_first_of(" \t\f\v\r\n", at), text.size());
@@ -133,7 +134,6 @@ std::vector<double> numbers_of_line(const std::string& text, std::size_t begin, 
     }
     at = word_end;
   }
-  return numbers;
 }
 
 }  // namespace
@@ -180,10 +180,11 @@ std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::strin
                                        const std::string& where) {
   const std::vector<const Column*> columns = columns_of_numbers(table);
   std::vector<std::uint8_t> bytes;
+  std::vector<double> numbers;
   std::size_t row = 0;
   for (std::size_t begin = 0; row < table.num_points && begin < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
-    const std::vector<double> numbers = numbers_of_line(text, begin, end, where);
+    read_numbers(text, begin, end, where, numbers);
     const bool last = end == text.size();
     begin = end + 1;
     if (numbers.empty()) continue;

@@ -22,6 +22,12 @@ namespace {
 using test::error_of;
 using ::testing::HasSubstr;
 
+std::string bytes_of(const std::vector<float>& numbers) {
+  std::string bytes(numbers.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
 class Recorded : public ::testing::Test {
  protected:
   CloudSourceParams params(const std::string& source) const {
@@ -131,8 +137,7 @@ TEST_F(Recorded, PcapThatCannotBeUsedIsNamed) {
 
 TEST_F(Recorded, FolderGivesCloudsWithTimesGravityAndTruth) {
   const std::vector<float> row = {5.0F, -1.0F, 0.5F, 0.25F, 90.0F, 0.0F, 0.0F, 0.75F};
-  std::string bytes(row.size() * sizeof(float), '\0');
-  std::memcpy(bytes.data(), row.data(), bytes.size());
+  const std::string bytes = bytes_of(row);
   folder_.write("a.bin", bytes);
   folder_.write("timestamps.csv", "name,utime,down_x,down_y,down_z\na,77,0,0.8,0.6\n");
   folder_.write("a_gt.json", R"({"utime": 77, "persons": []})");
@@ -156,8 +161,7 @@ TEST_F(Recorded, FolderOfSeveralKindsTurnsEachFileAsItsKindDoes) {
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
       "DATA ascii\n";
   const std::vector<float> row = {5.0F, -1.0F, 0.5F, 0.25F};
-  std::string bytes(row.size() * sizeof(float), '\0');
-  std::memcpy(bytes.data(), row.data(), bytes.size());
+  const std::string bytes = bytes_of(row);
   for (const char* kitti : {"a.bin", "c.bin"}) folder_.write(kitti, bytes);
   folder_.write("b.pcd", header + "1 -0.5 5\n");
   const auto source = open_cloud_source(params(folder_.path()));
