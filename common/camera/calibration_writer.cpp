@@ -1,55 +1,19 @@
 #include "common/camera/calibration_writer.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
-#include <stdexcept>
 #include <vector>
 
 #include "common/camera/opencv_conversion.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Collects the text of a YAML file.
 cv::FileStorage yaml_text() {
   constexpr int kMode =
       cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML;
   return {".yml", kMode};
-}
-
-bool write(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  return !file.fail();
-}
-
-/// A terminal, a pipe or /dev/null: it is written to, and no file may take its place.
-bool is_device(const std::string& path) {
-  std::error_code ignored;
-  return fs::is_other(path, ignored);
-}
-
-/// A regular file is there whole or, where the program or the disk fails, as it was before; so is
-/// the one that a link leads to.
-bool write_whole(const std::string& path, const std::string& text) {
-  std::error_code error;
-  const fs::path target = fs::exists(path, error) ? fs::canonical(path, error) : fs::path(path);
-  const fs::path unfinished = target.string() + ".unfinished";
-  const bool written = write(unfinished, text);
-  if (written) fs::rename(unfinished, target, error);
-  if (written && !error) return true;
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  return false;
-}
-
-void save(const std::string& path, const std::string& text) {
-  if (!(is_device(path) ? write(path, text) : write_whole(path, text)))
-    throw std::runtime_error(path + ": cannot be written");
 }
 
 void write_size(cv::FileStorage& file, const PinholeCamera& camera) {
@@ -104,7 +68,7 @@ void write_stereo_calibration(const std::string& path, const StereoCalibration& 
   file << "R" << cv::Mat(to_cv(calibration.R)) << "T" << cv::Mat(to_cv(calibration.T));
   if (calibration.rectification) write_rectification(file, *calibration.rectification);
   write_mounting(file, calibration.mounting);
-  save(path, file.releaseAndGetString());
+  write_whole_file(path, file.releaseAndGetString());
 }
 
 void write_depth_calibration(const std::string& path, const DepthCalibration& calibration) {
@@ -114,7 +78,7 @@ void write_depth_calibration(const std::string& path, const DepthCalibration& ca
   file << "depth_scale" << calibration.depth_scale_m;
   if (calibration.depth_camera) write_depth_camera(file, *calibration.depth_camera);
   write_mounting(file, calibration.mounting);
-  save(path, file.releaseAndGetString());
+  write_whole_file(path, file.releaseAndGetString());
 }
 
 }  // namespace limbcast

@@ -2,11 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 
 #include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast {
 
@@ -19,11 +18,7 @@ void write_picture(const std::string& path, const cv::Mat& image, const std::vec
   // Coded in memory: of a full disk libpng says words of its own on stderr.
   std::vector<std::uint8_t> bytes;
   cv::imencode(std::filesystem::path(path).extension().string(), image, bytes, params);
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  write_whole_file(path, bytes);
 }
 
 }  // namespace limbcast

@@ -3,10 +3,10 @@
 #include <boost/crc.hpp>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <vector>
+
+#include "common/whole_file.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -42,11 +42,7 @@ void write_png_of_size(const std::string& path, const cv::Mat& image, double pix
   cv::imencode(".png", image, bytes);
   const std::vector<std::uint8_t> chunk = resolution_chunk(pixels_per_m);
   bytes.insert(bytes.begin() + kHeaderBytes, chunk.begin(), chunk.end());
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  write_whole_file(path, bytes);
 }
 
 }  // namespace limbcast::calibrate

@@ -2,15 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <map>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "common/config/options.hpp"
 #include "common/formatted.hpp"
 #include "common/units.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -105,12 +104,10 @@ void write_pdf_of_size(const std::string& path, const cv::Mat& image, double pix
       "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 %.4f %.4f] /Contents 4 0 R /Resources "
       "<< /XObject << /Board 5 0 R >> /Font << /Caption 6 0 R >> >> >>",
       points(sheet.width_mm), points(sheet.height_mm));
-  std::ofstream file(path, std::ios::binary);
-  file << pdf_file({"<< /Type /Catalog /Pages 2 0 R >>",
-                    "<< /Type /Pages /Kids [3 0 R] /Count 1 >>", page, stream_object("", contents),
-                    image_object(image), "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"});
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  write_whole_file(path, pdf_file({"<< /Type /Catalog /Pages 2 0 R >>",
+                                   "<< /Type /Pages /Kids [3 0 R] /Count 1 >>", page,
+                                   stream_object("", contents), image_object(image),
+                                   "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"}));
 }
 
 }  // namespace limbcast::calibrate

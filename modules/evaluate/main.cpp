@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 #include "common/camera/picture_file.hpp"
@@ -8,6 +7,7 @@
 #include "common/config/output_file.hpp"
 #include "common/lcm_io/pose_log.hpp"
 #include "common/pose_json/pose_lines.hpp"
+#include "common/whole_file.hpp"
 #include "modules/evaluate/picture.hpp"
 #include "modules/evaluate/report.hpp"
 #include "modules/evaluate/tracking.hpp"
@@ -95,13 +95,6 @@ std::vector<Figure> compare_tracked(const Options& options, const std::vector<Tr
   return tracking_figures(evaluate_tracking(truth, reported, tracked));
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-}
-
 /// A full disk must not pass for a report.
 void print(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
@@ -130,7 +123,7 @@ void run(int argc, const char* const* argv) {
   const std::vector<Figure> tracking = compare_tracked(options, truth, reported);
   report.figures.insert(report.figures.end(), tracking.begin(), tracking.end());
   print(options.brief ? report_line(report, tally) : report_text(report, tally, options.worst));
-  if (!options.json.empty()) write_file(options.json, report_json(report, tally));
+  if (!options.json.empty()) write_whole_file(options.json, report_json(report, tally));
   if (!options.picture.empty()) write_picture(options.picture, draw_error_distribution(tally));
 }
 

@@ -1,29 +1,16 @@
 #include "modules/log/extracted_files.hpp"
 
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "common/camera/encoded_image.hpp"
 #include "common/lcm_io/image_codec.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast::logs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void write_bytes(const std::string& path, const void* bytes, std::size_t size) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  write_bytes(path, text.data(), text.size());
-}
 
 Json vector_json(const Eigen::Vector3f& vector) {
   // To 0.1 mm, which no sensor resolves.
@@ -92,12 +79,9 @@ bool tells_gravity(const Gravity& gravity) {
 }  // namespace
 
 void write_picture(const std::string& path, const image_t& image) {
-  if (image.encoding == image_t::JPEG)
-    return write_bytes(path + ".jpg", image.data.data(), image.data.size());
-  if (image.encoding == image_t::PNG)
-    return write_bytes(path + ".png", image.data.data(), image.data.size());
-  const EncodedImage encoded = encode_png(lcm_io::from_message(image));
-  write_bytes(path + ".png", encoded.bytes.data(), encoded.bytes.size());
+  if (image.encoding == image_t::JPEG) return write_whole_file(path + ".jpg", image.data);
+  if (image.encoding == image_t::PNG) return write_whole_file(path + ".png", image.data);
+  write_whole_file(path + ".png", encode_png(lcm_io::from_message(image)).bytes);
 }
 
 void write_cloud(const std::string& path, const Cloud& cloud) {
@@ -115,9 +99,10 @@ void write_cloud(const std::string& path, const Cloud& cloud) {
     if (!cloud.rings.empty()) append(cloud.rings[i]);
   }
   const std::string number = std::to_string(count);
-  write_text(path, "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + pcd_fields(cloud) +
-                       "WIDTH " + number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number +
-                       "\nDATA binary\n" + records);
+  write_whole_file(path, "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" +
+                             pcd_fields(cloud) + "WIDTH " + number +
+                             "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number +
+                             "\nDATA binary\n" + records);
 }
 
 void write_truth(const std::string& path, const BodyPoses& truth) {
@@ -128,7 +113,7 @@ void write_truth(const std::string& path, const BodyPoses& truth) {
     json["camera_height"] = *truth.stamp.gravity.sensor_height_m;
   json["persons"] = Json::array();
   for (const BodyPose& person : truth.persons) json["persons"].push_back(person_json(person));
-  write_text(path, json.dump(1) + "\n");
+  write_whole_file(path, json.dump(1) + "\n");
 }
 
 void write_timestamps(const std::string& path, const std::vector<Stamp>& stamps) {
@@ -143,7 +128,7 @@ void write_timestamps(const std::string& path, const std::vector<Stamp>& stamps)
     std::snprintf(gravity, sizeof(gravity), ",%.6f,%.6f,%.6f", down.x(), down.y(), down.z());
     text += (all_tell_gravity ? gravity : "") + std::string("\n");
   }
-  write_text(path, text);
+  write_whole_file(path, text);
 }
 
 std::string frame_name(const Stamp& stamp) {

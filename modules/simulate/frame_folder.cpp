@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/camera/calibration_writer.hpp"
 #include "common/camera/picture_file.hpp"
 #include "common/config/options.hpp"
+#include "common/whole_file.hpp"
 #include "modules/simulate/truth.hpp"
 
 namespace limbcast::simulate {
@@ -27,7 +29,7 @@ cv::Mat millimetres(const cv::Mat& depth_m) {
 }
 
 void write_pcd(const std::string& path, const LaserScan& scan) {
-  std::ofstream file(path, std::ios::binary);
+  std::ostringstream file;
   file << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 "
           "4 4 4\n"
        << "TYPE F F F F\nCOUNT 1 1 1 1\nWIDTH " << scan.width << "\nHEIGHT " << scan.height
@@ -37,8 +39,7 @@ void write_pcd(const std::string& path, const LaserScan& scan) {
                              scan.intensities[i]};
     file.write(reinterpret_cast<const char*>(record), sizeof(record));
   }
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
+  write_whole_file(path, file.str());
 }
 
 }  // namespace
@@ -84,16 +85,14 @@ void FrameFolder::write(const SimulatedFrame& frame) {
     write_image(path(frame, "_mask.png"), frame.mask);
     write_image(path(frame, "_labels.png"), frame.labels);
   }
-  std::ofstream truth(path(frame, "_gt.json"));
-  truth << truth_json(frame.scenario, view, frame.pixels).dump(1) << "\n";
-  truth.close();
+  write_whole_file(path(frame, "_gt.json"),
+                   truth_json(frame.scenario, view, frame.pixels).dump(1) + "\n");
   const Eigen::Vector3d& down = frame.told_down;
   char line[160];
   std::snprintf(line, sizeof(line), "%s,%lld,%.5f,%.5f,%.5f\n", frame.scenario.name.c_str(),
                 static_cast<long long>(frame.scenario.utime), down.x(), down.y(), down.z());
   timestamps_ << line << std::flush;
-  if (!truth || !timestamps_)
-    throw std::runtime_error(path(frame, "_gt.json") + ": cannot be written");
+  if (!timestamps_) throw std::runtime_error(folder_ + "/timestamps.csv: cannot be written");
 }
 
 }  // namespace limbcast::simulate

@@ -24,7 +24,7 @@ TEST(PictureFile, IsNamedWhereItCannotBeWritten) {
   const std::string path = folder / "none/report.png";
   const cv::Mat image(2, 2, CV_8UC1, cv::Scalar(0));
   EXPECT_EQ(test::error_of<std::runtime_error>([&] { write_picture(path, image); }),
-            path + ": cannot be written");
+            path + ": cannot be written (No such file or directory)");
 }
 
 TEST(PictureFile, IsAllThatIsSaidOfAFullDisk) {
@@ -34,7 +34,7 @@ TEST(PictureFile, IsAllThatIsSaidOfAFullDisk) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(
       test::error_of<std::runtime_error>([&] { write_picture(folder / "report.png", image); }),
-      folder / "report.png: cannot be written");
+      folder / "report.png: cannot be written (No space left on device)");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

@@ -1,0 +1,66 @@
+#include "common/whole_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace limbcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws std::system_error where that fails.
+void write(const fs::path& path, std::string_view bytes) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::system_error(errno, std::generic_category());
+}
+
+/// No file may take the place of a pipe, a terminal or /dev/null.
+bool is_device(const fs::path& path) {
+  std::error_code unreachable;
+  return fs::is_other(path, unreachable);
+}
+
+/// The file that a link leads to, where it leads to one.
+fs::path end_of_links(const fs::path& path) {
+  std::error_code leads_nowhere;
+  const fs::path end = fs::canonical(path, leads_nowhere);
+  return leads_nowhere ? path : end;
+}
+
+/// Under another name beside it until it is whole.
+void write_beside(const fs::path& path, std::string_view bytes) {
+  const fs::path unfinished = path.string() + ".unfinished";
+  try {
+    write(unfinished, bytes);
+    fs::rename(unfinished, path);
+  } catch (const std::system_error&) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    throw;
+  }
+}
+
+}  // namespace
+
+void write_whole_file(const std::string& path, std::string_view bytes) {
+  try {
+    is_device(path) ? write(path, bytes) : write_beside(end_of_links(path), bytes);
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(path + ": cannot be written (" + std::strerror(error.code().value()) +
+                             ")");
+  }
+}
+
+void write_whole_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  write_whole_file(path,
+                   std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace limbcast

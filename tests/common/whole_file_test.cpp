@@ -1,0 +1,69 @@
+#include "common/whole_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace limbcast {
+namespace {
+
+using test::TemporaryFolder;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string refusal_of(const std::string& path, const std::string& text) {
+  return test::error_of<std::runtime_error>([&] { write_whole_file(path, text); });
+}
+
+TEST(WholeFile, TakesThePlaceOfTheOneBefore) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("report.txt", "a longer text of before");
+  write_whole_file(path, std::string("new\0text", 8));
+  EXPECT_EQ(text_of(path), std::string("new\0text", 8));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+/// As on a disk that is full after so many bytes.
+void let_files_grow_to(rlim_t bytes) {
+  const rlimit limit{bytes, bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+}
+
+TEST(WholeFile, IsAsItWasWhereTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("report.txt", "before");
+  const auto tell = [&] {
+    let_files_grow_to(50'000);
+    std::fputs(refusal_of(path, std::string(100'000, 'x')).c_str(), stderr);
+    std::exit(0);
+  };
+  EXPECT_EXIT(tell(), ::testing::ExitedWithCode(0),
+              ::testing::HasSubstr("report.txt: cannot be written (File too large)"));
+  EXPECT_EQ(text_of(path), "before");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(WholeFile, IsNamedWithTheReasonWhereItCannotBeWritten) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(refusal_of(folder / "none/report.txt", "text"),
+            folder / "none/report.txt: cannot be written (No such file or directory)");
+  EXPECT_EQ(refusal_of(folder.path(), "text"),
+            folder.path() + ": cannot be written (Is a directory)");
+}
+
+}  // namespace
+}  // namespace limbcast
