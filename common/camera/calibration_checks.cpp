@@ -85,25 +85,28 @@ PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, in
   return {width, height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
 }
 
-void check_distortion(const YamlReader& yaml, const std::string& key, const LensCalibration& lens) {
+std::optional<DistortionFault> distortion_fault(const LensCalibration& lens) {
   const auto is_zero = [](double coefficient) { return coefficient == 0.0; };
-  if (std::all_of(lens.distortion.begin(), lens.distortion.end(), is_zero)) return;
+  if (std::all_of(lens.distortion.begin(), lens.distortion.end(), is_zero)) return std::nullopt;
   const double end = reach(lens.camera);
   double last = 0.0;
   for (double tangent = kTangentStep; last < end; tangent += kTangentStep) {
     const double place = distorted(lens.distortion, tangent);
-    if (place > kLargestStretch * tangent) {
-      yaml.fail(key, "stretches the image more than " + text_of(kLargestStretch) + " times",
-                "calibrate again");
-    }
-    if (!(place > last) || tangent > kLargestTangent) {
-      yaml.fail(key,
-                "folds the image: " + text_of(std::round(last * lens.camera.fx)) +
-                    " px from its middle it ends, and rays farther off the axis come back",
-                "calibrate again, with the board also at the image's borders");
-    }
+    if (place > kLargestStretch * tangent)
+      return DistortionFault{"stretches the image more than " + text_of(kLargestStretch) + " times",
+                             "calibrate again"};
+    if (!(place > last) || tangent > kLargestTangent)
+      return DistortionFault{
+          "folds the image: " + text_of(std::round(last * lens.camera.fx)) +
+              " px from its middle it ends, and rays farther off the axis come back",
+          "calibrate again, with the board also at the image's borders"};
     last = place;
   }
+  return std::nullopt;
+}
+
+void check_distortion(const YamlReader& yaml, const std::string& key, const LensCalibration& lens) {
+  if (const auto fault = distortion_fault(lens)) yaml.fail(key, fault->found, fault->remedy);
 }
 
 void check_baseline(const YamlReader& yaml, const std::string& key, const Eigen::Vector3d& T) {

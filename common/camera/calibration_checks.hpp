@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "common/camera/calibration.hpp"
@@ -16,7 +17,13 @@ std::string text_of(double value);
 /// The camera of `K`, the matrix under `key`, for an image of this size [px].
 PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, int width, int height,
                               const Eigen::Matrix3d& K);
-/// The lens' image grows with the angle to its axis as far as the image reaches.
+/// What is wrong with a lens whose image does not grow with the angle to its axis as far as the
+/// image reaches, and what to do.
+struct DistortionFault {
+  std::string found, remedy;
+};
+std::optional<DistortionFault> distortion_fault(const LensCalibration& lens);
+/// There is none.
 void check_distortion(const YamlReader& yaml, const std::string& key, const LensCalibration& lens);
 /// `T`, the right camera's offset [m], puts it to the right of the left one.
 void check_baseline(const YamlReader& yaml, const std::string& key, const Eigen::Vector3d& T);

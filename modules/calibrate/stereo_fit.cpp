@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "common/camera/calibration_checks.hpp"
 #include "common/camera/opencv_conversion.hpp"
 #include "common/formatted.hpp"
 #include "common/median.hpp"
@@ -24,10 +25,16 @@ struct Lens {
   LensUncertainty uncertainty;
 };
 
+/// In sides of a square: OpenCV's solvers miss the lens where a board's points lie closer than some
+/// tenths of a unit.
+cv::Point3f point_in_squares(const Board& board, int id) {
+  return board.point_m(id) / board.square_m;
+}
+
 std::vector<cv::Point3f> points_of(const Board& board, const std::vector<int>& ids) {
   std::vector<cv::Point3f> points;
   points.reserve(ids.size());
-  for (const int id : ids) points.push_back(board.point_m(id));
+  for (const int id : ids) points.push_back(point_in_squares(board, id));
   return points;
 }
 
@@ -77,8 +84,10 @@ void set_pose(const CommonPoints& common, const Board& board, const LensCalibrat
                translation);
   cv::Matx33d R;
   cv::Rodrigues(rotation, R);
-  const cv::Point3f middle = 0.5F * (board.point_m(0) + board.point_m(board.num_points() - 1));
-  figures.distance_m = cv::norm(R * cv::Vec3d(middle.x, middle.y, middle.z) + translation);
+  const cv::Point3f middle =
+      0.5F * (point_in_squares(board, 0) + point_in_squares(board, board.num_points() - 1));
+  figures.distance_m =
+      board.square_m * cv::norm(R * cv::Vec3d(middle.x, middle.y, middle.z) + translation);
   // The third column is the board's normal; a board may be numbered so that it points either way.
   const double sign = R(2, 2) < 0.0 ? -1.0 : 1.0;
   figures.tilt_sideways_deg =
@@ -132,6 +141,7 @@ StereoFit fit_once(const std::vector<View>& views, const Board& board, const cv:
   fit.calibration.right = to_calibration(right, size);
   cv::cv2eigen(R, fit.calibration.R);
   cv::cv2eigen(T, fit.calibration.T);
+  fit.calibration.T *= board.square_m;
   fit.calibration.rectification = reconstructor::compute_rectification(fit.calibration);
   fit.left = left.uncertainty;
   fit.right = right.uncertainty;
@@ -205,8 +215,9 @@ int count_tilted(const std::vector<ViewFit>& figures, double tilt_deg) {
   }));
 }
 
-void judge_lens(const char* side, const PinholeCamera& camera, const LensUncertainty& uncertainty,
+void judge_lens(const char* side, const LensCalibration& lens, const LensUncertainty& uncertainty,
                 const VerdictParams& params, std::vector<std::string>& faults) {
+  const PinholeCamera& camera = lens.camera;
   if (std::abs(camera.fx / camera.fy - 1.0) > params.max_aspect_error)
     faults.push_back(
         formatted("%s camera: focal lengths %.0f and %.0f px differ by more than %.0f %%; "
@@ -222,6 +233,9 @@ void judge_lens(const char* side, const PinholeCamera& camera, const LensUncerta
         formatted("%s camera: the focal length %.1f px is known to %.1f px only (limit "
                   "%.0f %%); add views with a tilted board",
                   side, camera.fx, uncertainty.focal_px, 100.0 * params.max_focal_sigma));
+  if (const auto fault = distortion_fault(lens))
+    faults.push_back(formatted("%s camera: its distortion %s; %s", side, fault->found.c_str(),
+                               fault->remedy.c_str()));
 }
 
 }  // namespace
@@ -279,8 +293,8 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
         formatted("the epipolar error is %.2f px (limit %.2f); were both images "
                   "taken at the same time?",
                   fit.epipolar_px, params.max_epipolar_px));
-  judge_lens("left", calibration.left.camera, fit.left, params, verdict.faults);
-  judge_lens("right", calibration.right.camera, fit.right, params, verdict.faults);
+  judge_lens("left", calibration.left, fit.left, params, verdict.faults);
+  judge_lens("right", calibration.right, fit.right, params, verdict.faults);
   if (coverage < params.min_coverage) {
     verdict.faults.push_back(
         formatted("the boards cover %.0f %% of the image (limit %.0f %%); outside of "

@@ -26,6 +26,13 @@ double mean_distance_px(const BoardPoints& a, const BoardPoints& b) {
   return sum / static_cast<double>(common.ids.size());
 }
 
+/// How far the board has moved in the image in which it moved more [px].
+double shift_px(const View& a, const View& b) {
+  return std::max(mean_distance_px(a.left, b.left), mean_distance_px(a.right, b.right));
+}
+
+std::string stands_as_in(const View& taken) { return "stands where it stood in " + taken.name; }
+
 /// Both about their own middle.
 void centre(CommonPoints& common) {
   for (std::vector<cv::Point2f>* points : {&common.left, &common.right}) {
@@ -79,6 +86,7 @@ bool ViewCollector::add(const GreyPair& pair) {
   std::string reason = in_sequence_ ? why_wait(pair) : "";
   std::optional<View> view;
   if (reason.empty()) reason = find_view(pair, view);
+  if (reason.empty() && !in_sequence_) reason = why_no_new_shot(*view);
   if (!reason.empty()) {
     rejected_.push_back({pair.name, reason});
     return false;
@@ -115,16 +123,21 @@ std::string ViewCollector::why_wait(const GreyPair& pair) {
 std::string ViewCollector::why_not_here(const Glimpse& glimpse) const {
   if (!previous_) return "the board has just come into view";
   const double seconds = kMicroseconds_s * static_cast<double>(glimpse.utime - previous_->utime);
-  const double motion_px = std::max(mean_distance_px(glimpse.view.left, previous_->view.left),
-                                    mean_distance_px(glimpse.view.right, previous_->view.right));
+  const double motion_px = shift_px(glimpse.view, previous_->view);
   if (motion_px > params_.max_speed_px_s * seconds)
     return formatted("moved by %.1f px in %.2f s (limit %.0f px/s)", motion_px, seconds,
                      params_.max_speed_px_s);
   for (const View& taken : taken_glimpses_) {
-    const double shift_px = mean_distance_px(glimpse.view.left, taken.left);
-    if (shift_px < params_.min_shift * image_size_.width &&
+    if (mean_distance_px(glimpse.view.left, taken.left) < params_.min_shift * image_size_.width &&
         shape_change(taken.left, glimpse.view.left) < params_.min_shape_change)
-      return "stands where it stood in " + taken.name;
+      return stands_as_in(taken);
+  }
+  return "";
+}
+
+std::string ViewCollector::why_no_new_shot(const View& view) const {
+  for (const View& taken : views_) {
+    if (shift_px(view, taken) < params_.min_shot_shift_px) return stands_as_in(taken);
   }
   return "";
 }

@@ -34,6 +34,9 @@ struct ViewParams {
   /// Edges of a sharp picture are up to about 3 px wide, as cv::estimateChessboardSharpness says;
   /// OpenCV's own example pairs reach 3.4. Wider: motion or focus.
   double max_edge_width_px = 5.0;
+  /// A shot whose points stand within this of those of one before adds nothing but its noise [px]:
+  /// a copy, or a board on a stand. Of a board that is held the points move by whole pixels.
+  double min_shot_shift_px = 0.5;
   /// In a video or live: how fast the points may move [px/s]. Two cameras that are paired within
   /// 10 ms (--pair-tolerance-ms) then see them 0.3 px apart, no more than a good view's error.
   /// Hands that hold a board still pass. A speed, as the frames of a busy computer lie far apart.
@@ -70,6 +73,7 @@ class ViewCollector {
   void check_size(const GreyPair& pair);
   std::string why_wait(const GreyPair& pair);
   std::string why_not_here(const Glimpse& glimpse) const;
+  std::string why_no_new_shot(const View& view) const;
   std::string find_view(const GreyPair& pair, std::optional<View>& view) const;
 
   Board board_;

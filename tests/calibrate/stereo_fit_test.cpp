@@ -59,6 +59,19 @@ TEST(StereoFit, FindsTheCamerasFromPicturesOfCircles) {
   expect_found(fit.calibration, true_cameras());
 }
 
+TEST(StereoFit, FindsTheSameLensesInWhateverUnitTheSquaresAreTold) {
+  Board board;
+  const std::vector<View> views = project_boards(board, varied_poses(board, 14), true_cameras());
+  for (const double factor : {0.004, 1000.0}) {
+    board.square_m = factor * Board{}.square_m;
+    StereoFit fit = fit_stereo(views, board, kVga);
+    EXPECT_NEAR(fit.figures[0].distance_m / factor,
+                fit_stereo(views, Board{}, kVga).figures[0].distance_m, 1e-3);
+    fit.calibration.T /= factor;
+    expect_found(fit.calibration, true_cameras());
+  }
+}
+
 TEST(StereoFit, LeavesOutAViewWhoseBoardMovedBetweenTheImages) {
   const Board board;
   std::vector<View> views = project_boards(board, varied_poses(board, 14), true_cameras());
@@ -112,6 +125,13 @@ TEST(Judge, RefusesCamerasThatAreSwapped) {
   std::vector<View> views = project_boards(board, varied_poses(board, 12), true_cameras());
   for (View& view : views) std::swap(view.left, view.right);
   EXPECT_THAT(judge(fit_stereo(views, board, kVga), 0.8).faults, Contains(HasSubstr("swap them")));
+}
+
+TEST(Judge, RefusesALensThatNoModuleWouldRead) {
+  StereoFit fit = good_fit();
+  fit.calibration.right.distortion = {-0.9, 0.0, 0.0, 0.0, 0.0};
+  EXPECT_THAT(judge(fit, 0.8).faults,
+              Contains(HasSubstr("right camera: its distortion folds the image")));
 }
 
 TEST(Judge, RefusesWhatCoversLittleOfTheImage) {

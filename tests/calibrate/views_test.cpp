@@ -115,6 +115,13 @@ TEST_F(Views, OfSingleShotsAreTakenAtOnce) {
   EXPECT_EQ(reason_for(collector, picture("a")), "");
 }
 
+TEST_F(Views, OfSingleShotsAreNewWhereTheBoardHasMoved) {
+  ViewCollector collector(board_, false);
+  collector.add(picture("a"));
+  EXPECT_EQ(reason_for(collector, picture("copy of a")), "stands where it stood in a");
+  EXPECT_EQ(reason_for(collector, picture("b", 2.0)), "");
+}
+
 TEST_F(Views, AreRefusedWhereAnImageIsBlurred) {
   GreyPair pair = picture("a");
   cv::GaussianBlur(pair.right, pair.right, {}, 3.0);
