@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/camera/opencv_conversion.hpp"
@@ -167,6 +168,20 @@ GreyPair render_board(const Board& board, const BoardPose& pose, const StereoCal
                       const std::string& name) {
   return {name, render(board, pose, cameras.left),
           render(board, in_right_camera(pose, cameras), cameras.right)};
+}
+
+GreyPair picture_of_wall(const std::string& name, const cv::Size& size) {
+  const cv::Mat wall(size, CV_8UC1, cv::Scalar(90));
+  return {name, wall, wall};
+}
+
+void write_pair(const test::TemporaryFolder& folder, const GreyPair& pair) {
+  for (const auto& [grey, side] :
+       {std::pair(&pair.left, "_left.jpg"), {&pair.right, "_right.jpg"}}) {
+    cv::Mat image;
+    cv::cvtColor(*grey, image, cv::COLOR_GRAY2BGR);
+    cv::imwrite(folder / (pair.name + side), image);
+  }
 }
 
 }  // namespace limbcast::calibrate

@@ -6,6 +6,7 @@
 #include "common/camera/calibration.hpp"
 #include "modules/calibrate/coverage.hpp"
 #include "modules/calibrate/views.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::calibrate {
 
@@ -34,5 +35,11 @@ std::vector<View> project_boards(const Board& board, const std::vector<BoardPose
 /// Pictures of the board on a grey background, as lenses with that distortion give them.
 GreyPair render_board(const Board& board, const BoardPose& pose, const StereoCalibration& cameras,
                       const std::string& name);
+
+/// A pair that shows no board.
+GreyPair picture_of_wall(const std::string& name, const cv::Size& size);
+
+/// Writes "NAME_left.jpg" and "NAME_right.jpg" as cameras give them: coloured.
+void write_pair(const test::TemporaryFolder& folder, const GreyPair& pair);
 
 }  // namespace limbcast::calibrate
