@@ -78,6 +78,9 @@ struct ImageJoint {
   /// How much farther along the optical axis than the hips' middle; rough of BlazePose: of one
   /// wrist in eight the sign is wrong. 0 of MoveNet, which tells none.
   float behind_hips_m = 0.0F;
+  /// How far off the mark is across the ray (standard deviation), in sight or not. 0 of BlazePose
+  /// and MoveNet, which do not tell it.
+  float spread_m = 0.0F;
 };
 
 /// A person as a network for poses sees it.

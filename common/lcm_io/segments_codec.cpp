@@ -146,6 +146,7 @@ image_pose_t to_message(const ImagePose& pose) {
     joint_message.v = joint.px.y();
     joint_message.visibility = joint.visibility;
     joint_message.behind_hips_m = joint.behind_hips_m;
+    joint_message.spread_m = joint.spread_m;
   }
   message.num_joints = static_cast<std::int32_t>(message.joints.size());
   return message;
@@ -161,12 +162,14 @@ ImagePose from_message(const image_pose_t& message) {
     require(joint.joint >= 0 && joint.joint < kJointCount, "segments: unknown joint of an image");
     require(!std::exchange(told[joint.joint], true), "segments: a joint of an image is told twice");
     require(std::abs(joint.u) <= kFarthestJoint_px && std::abs(joint.v) <= kFarthestJoint_px &&
-                is_share(joint.visibility) && std::abs(joint.behind_hips_m) <= kFarthest_m,
+                is_share(joint.visibility) && std::abs(joint.behind_hips_m) <= kFarthest_m &&
+                joint.spread_m >= 0.0F && joint.spread_m <= kFarthest_m,
             "segments: a joint of an image is out of range");
     pose.joints.push_back({static_cast<Joint>(joint.joint),
                            {joint.u, joint.v},
                            joint.visibility,
-                           joint.behind_hips_m});
+                           joint.behind_hips_m,
+                           joint.spread_m});
   }
   return pose;
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
 #include "common/human_model/joints.hpp"
-#include "modules/segmenter/depth_picture.hpp"
 #include "modules/segmenter/network.hpp"
 #include "modules/segmenter/range_image.hpp"
 
@@ -30,7 +30,7 @@ constexpr float kDepthUnit_m = 0.25F;
 /// What all cells tell, row by row.
 using Figures = std::vector<float>;
 
-Figures figures_of(TfliteNetwork& network, const cv::Mat3f& picture) {
+Figures figures_of(TfliteNetwork& network, const cv::Mat4f& picture) {
   const auto* channels = picture.ptr<float>();
   std::copy(channels, channels + picture.total() * picture.channels(), network.input());
   network.run();
@@ -59,8 +59,8 @@ void add_mirrored(const Figures& mirrored_figures, Figures& figures) {
 
 /// The mean of what the network told of a picture and of what it tells of its mirror image: a tenth
 /// to a sixth less is told wrong than by one look (tests/accuracy/README.md).
-Figures figures_of_both(TfliteNetwork& network, const cv::Mat3f& picture, Figures figures) {
-  cv::Mat3f mirror;
+Figures figures_of_both(TfliteNetwork& network, const cv::Mat4f& picture, Figures figures) {
+  cv::Mat4f mirror;
   constexpr int kLeftToRight = 1;
   cv::flip(picture, mirror, kLeftToRight);
   add_mirrored(figures_of(network, mirror), figures);
@@ -88,7 +88,7 @@ class Cell {
 /// A joint in the picture.
 struct SeenInDepths {
   Eigen::Vector2f px;
-  float behind_middle_m, presence, visibility;
+  float behind_middle_m, presence_odds, visibility;
 };
 
 /// As the cell tells that is surest of it.
@@ -104,7 +104,7 @@ SeenInDepths find_joint(const Figures& figures, int joint) {
   constexpr float kHalf = 0.5F;
   const Eigen::Vector2f px =
       ((middle_cell + cell.offset()).array() + kHalf) * static_cast<float>(kCellSide_px) - kHalf;
-  return {px, cell.behind_middle_m(), probability(cell.presence_odds()), cell.visibility()};
+  return {px, cell.behind_middle_m(), cell.presence_odds(), cell.visibility()};
 }
 
 float person_odds(const Figures& figures) {
@@ -128,7 +128,29 @@ SeenPerson read_figures(const Figures& figures) {
   return seen;
 }
 
+/// Of a mark whose log odds are so high.
+float spread_m(float presence_odds, const DepthPoseParams& params) {
+  return std::min(params.even_odds_spread_m * std::exp(-params.spread_log_slope * presence_odds),
+                  params.max_spread_m);
+}
+
 }  // namespace
+
+std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& view) {
+  ImagePose seen;
+  seen.person_score = pose.person_score;
+  std::array<float, kJointCount> depth_m{};
+  for (std::size_t i = 0; i < pose.places_m.size(); ++i) {
+    const Eigen::Vector3f place_m = view.frame_from_image.transpose() * pose.places_m[i];
+    if (!(place_m.z() > 0.0F)) return std::nullopt;
+    depth_m[i] = place_m.z();
+    seen.joints.push_back({static_cast<Joint>(i), image_px(view, place_m), pose.visibilities[i],
+                           0.0F, pose.spreads_m[i]});
+  }
+  const float hips_m = 0.5F * (depth_m[index(Joint::kHipLeft)] + depth_m[index(Joint::kHipRight)]);
+  for (ImageJoint& joint : seen.joints) joint.behind_hips_m = depth_m[index(joint.joint)] - hips_m;
+  return seen;
+}
 
 const TfliteFile& DepthPose::file() {
   static const TfliteFile file = read_tflite(limbcast_depth_pose);
@@ -142,44 +164,31 @@ DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
   });
 }
 
-std::optional<ImagePose> DepthPose::look(const RangeImage& view, const Eigen::Vector3f& head_m,
-                                         const Eigen::Vector3f& down) const {
+std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
   if (!networks_) return std::nullopt;
-  const auto picture = draw_depths(view, head_m, down, params_.picture);
-  if (!picture) return std::nullopt;
   const auto seen = networks_->with([&](TfliteNetwork& network) {
     return read_figures(
-        figures_of_both(network, picture->channels, figures_of(network, picture->channels)));
+        figures_of_both(network, picture.channels, figures_of(network, picture.channels)));
   });
-  const Eigen::Matrix3f view_from_picture =
-      view.frame_from_image.transpose() * picture->frame_from_picture;
-  ImagePose pose;
+  PoseInDepths pose;
   pose.person_score = seen.score;
-  std::array<float, kJointCount> depth_m{};
-  for (int i = 0; i < kJointCount; ++i) {
-    const SeenInDepths& joint = seen.joints[static_cast<std::size_t>(i)];
-    const Eigen::Vector3f place_m =
-        view_from_picture * picture->camera.back_project(joint.px.x(), joint.px.y(),
-                                                         picture->middle_m + joint.behind_middle_m);
-    if (!(place_m.z() > 0.0F)) return std::nullopt;
-    depth_m[static_cast<std::size_t>(i)] = place_m.z();
-    pose.joints.push_back(
-        {static_cast<Joint>(i), image_px(view, place_m), joint.presence * joint.visibility, 0.0F});
+  for (std::size_t i = 0; i < seen.joints.size(); ++i) {
+    const SeenInDepths& joint = seen.joints[i];
+    pose.places_m[i] = picture.frame_from_picture *
+                       picture.camera.back_project(joint.px.x(), joint.px.y(),
+                                                   picture.middle_m + joint.behind_middle_m);
+    pose.visibilities[i] = probability(joint.presence_odds) * joint.visibility;
+    pose.spreads_m[i] = spread_m(joint.presence_odds, params_);
   }
-  const float hips_m = 0.5F * (depth_m[index(Joint::kHipLeft)] + depth_m[index(Joint::kHipRight)]);
-  for (ImageJoint& joint : pose.joints) joint.behind_hips_m = depth_m[index(joint.joint)] - hips_m;
   return pose;
 }
 
-bool DepthPose::shows_person(const RangeImage& view, const Eigen::Vector3f& head_m,
-                             const Eigen::Vector3f& down, float min_person_odds) const {
+bool DepthPose::shows_person(const DepthPicture& picture, float min_person_odds) const {
   if (!networks_) return false;
-  const auto picture = draw_depths(view, head_m, down, params_.picture);
-  if (!picture) return false;
   return networks_->with([&](TfliteNetwork& network) {
-    Figures figures = figures_of(network, picture->channels);
+    Figures figures = figures_of(network, picture.channels);
     if (person_odds(figures) < min_person_odds - params_.mirror_adds_odds) return false;
-    figures = figures_of_both(network, picture->channels, std::move(figures));
+    figures = figures_of_both(network, picture.channels, std::move(figures));
     return person_odds(figures) >= min_person_odds;
   });
 }

@@ -1,14 +1,30 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <optional>
 
 #include "common/cloud/segment.hpp"
+#include "common/human_model/joints.hpp"
+#include "modules/segmenter/depth_picture.hpp"
 #include "modules/segmenter/image_params.hpp"
 #include "modules/segmenter/instance_pool.hpp"
 #include "modules/segmenter/tflite_network.hpp"
 
 namespace limbcast::segmenter {
+
+/// A person's joints as the network of depths sees them.
+struct PoseInDepths {
+  float person_score = 0.0F;  ///< 0 to 1, how sure the network is that somebody is there
+  std::array<Eigen::Vector3f, kJointCount> places_m;  ///< in the cloud's frame
+  std::array<float, kJointCount> visibilities;        ///< 0 to 1, in sight and there
+  std::array<float, kJointCount> spreads_m;           ///< across the ray, standard deviations
+};
+
+/// The same in the pixels of the image that `view` is a part of; nothing where a joint is not
+/// before it.
+std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& view);
 
 /// limbcast's own network of poses (models/README.md): sees a person's joints in depths alone, left
 /// and right from how a body is built, and how far away each is. Trained on simulated people by
@@ -20,13 +36,11 @@ class DepthPose {
 
   explicit DepthPose(const DepthPoseParams& params);
 
-  /// Joints in the pixels of the image that `view` is a part of; see draw_depths().
-  std::optional<ImagePose> look(const RangeImage& view, const Eigen::Vector3f& head_m,
-                                const Eigen::Vector3f& down) const;
+  /// Nothing where the network is switched off.
+  std::optional<PoseInDepths> look(const DepthPicture& picture) const;
   /// Whether the log odds of a person are at least so high, as look() tells them. For most things
   /// one look of the network is enough.
-  bool shows_person(const RangeImage& view, const Eigen::Vector3f& head_m,
-                    const Eigen::Vector3f& down, float min_person_odds) const;
+  bool shows_person(const DepthPicture& picture, float min_person_odds) const;
 
  private:
   DepthPoseParams params_;

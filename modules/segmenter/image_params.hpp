@@ -102,6 +102,12 @@ struct DepthPoseParams {
   /// What the mirror image adds to a person's log odds at most; of 2485 candidates (20 simulated
   /// sets and rooms, demo.log, stereo_dev) two at most.
   float mirror_adds_odds = 3.0F;
+  /// Spread of a mark across the ray whose log odds to be there are zero [m], by what power of e it
+  /// falls with each unit of them, and the most that is told [m]. Measured on simulated and
+  /// recorded people; whether the joint is in sight tells nothing more.
+  float even_odds_spread_m = 0.064F;
+  float spread_log_slope = 0.76F;
+  float max_spread_m = 0.3F;
 };
 
 }  // namespace limbcast::segmenter

@@ -107,6 +107,12 @@ Lattice render_panorama(const Cloud& cloud, const LevelFrame& frame, const Panor
   return panorama;
 }
 
+std::optional<std::size_t> panorama_pixel(const Lattice& panorama, const Eigen::Vector3f& level_m) {
+  const Pixel pixel = project(panorama, level_m);
+  if (!inside(panorama, pixel)) return std::nullopt;
+  return panorama.index(pixel.u, pixel.v);
+}
+
 std::vector<std::int16_t> labels_of_points(const Cloud& cloud, const Lattice& panorama,
                                            const std::vector<std::int16_t>& labels,
                                            const JointGrowingParams& params) {

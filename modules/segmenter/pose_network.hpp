@@ -1,26 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
 #include "modules/segmenter/color_patch.hpp"
 #include "modules/segmenter/image_params.hpp"
 #include "modules/segmenter/instance_pool.hpp"
+#include "modules/segmenter/labelled_person.hpp"
 #include "modules/segmenter/picture_network.hpp"
 
 namespace limbcast::segmenter {
-
-/// A person of a cloud that was segmented.
-struct LabelledPerson {
-  const std::vector<std::int16_t>& labels;  ///< whose each of the cloud's points is
-  std::int16_t label;                       ///< this person's
-  Eigen::Vector3f head_m;                   ///< centre of the head, in the cloud's frame
-};
 
 /// Sees a person's joints with a network for pictures. Several threads may use one object.
 class PoseNetwork {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/cloud/cloud.hpp"
@@ -19,6 +22,15 @@ struct Scene {
 /// A camera's cloud thinned, any other rendered into a panorama; over the ground, where it is in
 /// sight. The scene keeps no copy of the cloud.
 Scene look_at(const Cloud& cloud, const Params& params);
+
+/// What the sensor saw along a ray.
+struct SeenPoint {
+  std::size_t point;  ///< index of the cloud's point
+  float along;        ///< how many times the ray it is away
+};
+
+/// `ray` in the cloud's frame; nothing at a hole and outside.
+std::optional<SeenPoint> look_along(const Scene& scene, const Eigen::Vector3f& ray);
 
 /// Whether the cloud is a camera's coloured image.
 bool has_image(const Cloud& cloud);

@@ -70,7 +70,7 @@ Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
 Segmenter::Segmenter(const Params& params)
     : params_(params), faces_(params.faces), image_(params), depth_pose_(params.depth_pose) {}
 
-Segments Segmenter::segment(const Cloud& cloud) const {
+Segments Segmenter::segment(const Cloud& cloud, DepthPictures* pictures) const {
   Segments result;
   result.stamp = cloud.stamp;
   const Scene scene = look_at(cloud, params_);
@@ -78,7 +78,8 @@ Segments Segmenter::segment(const Cloud& cloud) const {
   const std::vector<std::int16_t> labels = params_.growing == Growing::kPaper
                                                ? grow_as_paper(scene, seeds, result)
                                                : grow_refined(scene, seeds, result);
-  fill_segments(scene, labels, result);
+  DepthPictures drawn = fill_segments(scene, labels, result);
+  if (pictures != nullptr) *pictures = std::move(drawn);
   return result;
 }
 
@@ -206,14 +207,13 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
   std::vector<HeadCandidate> refused = find_overlooked(scene.lattice, people, params_.overlooked);
   if (refused.empty()) return {};
   const std::vector<std::int16_t> labels = grow_from(scene, refused, &people.labels);
-  const LevelFrame& frame = scene.lattice.frame;
   tbb::parallel_for(std::size_t{0}, refused.size(), [&](std::size_t k) {
     HeadCandidate& head = refused[k];
-    Segment body;
-    fill_segment(scene, labels, static_cast<std::int16_t>(k), body);
-    head.told_by_body = body.range_image &&
-                        depth_pose_.shows_person(*body.range_image, frame.to_sensor(head.center_m),
-                                                 frame.down(), params_.overlooked.min_person_odds);
+    const LabelledPerson body{labels, static_cast<std::int16_t>(k),
+                              scene.lattice.frame.to_sensor(head.center_m)};
+    const auto picture = draw_depths(scene, body, params_.depth_pose.picture);
+    head.told_by_body =
+        picture && depth_pose_.shows_person(*picture, params_.overlooked.min_person_odds);
   });
   refused.erase(std::remove_if(refused.begin(), refused.end(),
                                [](const HeadCandidate& head) { return !head.told_by_body; }),
@@ -274,31 +274,46 @@ void Segmenter::see_people(const Scene& scene, const std::vector<std::int16_t>& 
   }
 }
 
-void Segmenter::see_depths(const Eigen::Vector3f& down, Segments& result) const {
-  tbb::parallel_for(std::size_t{0}, result.segments.size(), [&](std::size_t k) {
+DepthPictures Segmenter::draw_people(const Scene& scene, const std::vector<std::int16_t>& labels,
+                                     const std::vector<Segment>& segments) const {
+  DepthPictures pictures(segments.size());
+  tbb::parallel_for(std::size_t{0}, segments.size(), [&](std::size_t k) {
+    if (!segments[k].valid()) return;
+    const LabelledPerson person{labels, static_cast<std::int16_t>(k),
+                                behind_surface(segments[k].seed_m)};
+    pictures[k] = draw_depths(scene, person, params_.depth_pose.picture);
+  });
+  return pictures;
+}
+
+void Segmenter::see_depths(const DepthPictures& pictures, Segments& result) const {
+  tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
     Segment& segment = result.segments[k];
-    if (!segment.valid() || !segment.range_image) return;
-    auto pose = depth_pose_.look(*segment.range_image, behind_surface(segment.seed_m), down);
+    if (!pictures[k] || !segment.range_image) return;
+    const auto seen = depth_pose_.look(*pictures[k]);
+    auto pose = seen ? in_pixels(*seen, *segment.range_image) : std::nullopt;
     if (!pose) return;
     segment.image_poses.resize(kImageNetworkCount);
     segment.image_poses[static_cast<std::size_t>(ImageNetwork::kDepthPose)] = std::move(*pose);
   });
 }
 
-void Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
-                              Segments& result) const {
+DepthPictures Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
+                                       Segments& result) const {
   // The image tells of arms that are in no segment yet.
   const bool image = has_image(scene.cloud);
   const bool mends_arms = image && params_.growing != Growing::kPaper;
   if (mends_arms) join_arms(scene, labels, result);
   if (image) see_people(scene, labels, result);
+  DepthPictures pictures = draw_people(scene, labels, result.segments);
   if (mends_arms) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
     if (segment.valid()) fill_segment(scene, labels, static_cast<std::int16_t>(k), segment);
   }
-  see_depths(scene.lattice.frame.down(), result);
+  see_depths(pictures, result);
+  return pictures;
 }
 
 void Segmenter::fill_segment(const Scene& scene, const std::vector<std::int16_t>& labels,

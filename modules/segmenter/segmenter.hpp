@@ -6,6 +6,7 @@
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
 #include "modules/segmenter/body_classifier.hpp"
+#include "modules/segmenter/depth_picture.hpp"
 #include "modules/segmenter/depth_pose.hpp"
 #include "modules/segmenter/face_finder.hpp"
 #include "modules/segmenter/head_classifier.hpp"
@@ -21,6 +22,9 @@ namespace limbcast::segmenter {
 /// Centre of the head whose surface is seen at `seed_m`, in the sensor's frame.
 Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m);
 
+/// One for each segment.
+using DepthPictures = std::vector<std::optional<DepthPicture>>;
+
 /// Finds the people in a cloud (paper, section III-B). Keeps nothing from one cloud to the next.
 class Segmenter {
  public:
@@ -28,8 +32,9 @@ class Segmenter {
 
   /// One segment for each seed that was looked at: first the people, then the rejected, without
   /// points and with the filter that ended them. Arms taken for people are among the first, and
-  /// rejected.
-  Segments segment(const Cloud& cloud) const;
+  /// rejected. `pictures`, where it is wanted, gets what the network of depths was shown of each;
+  /// nothing of rejected ones.
+  Segments segment(const Cloud& cloud, DepthPictures* pictures = nullptr) const;
 
   /// Cuts out the people whose heads' centres are told (sensor frame): one valid segment for each
   /// head that the cloud shows, grown as `growing = refined` does. Finds and rejects nobody.
@@ -59,9 +64,14 @@ class Segmenter {
   /// What the networks see of each person and its face in the colour image.
   void see_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                   Segments& result) const;
+  /// Of each segment what the network of depths is shown; nothing of rejected ones.
+  DepthPictures draw_people(const Scene& scene, const std::vector<std::int16_t>& labels,
+                            const std::vector<Segment>& segments) const;
   /// What the network of depths sees of each person.
-  void see_depths(const Eigen::Vector3f& down, Segments& result) const;
-  void fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Segments& result) const;
+  void see_depths(const DepthPictures& pictures, Segments& result) const;
+  /// Returns what the network of depths was shown.
+  DepthPictures fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
+                              Segments& result) const;
   /// The points of the cloud that carry `label`, and the range image around them.
   void fill_segment(const Scene& scene, const std::vector<std::int16_t>& labels, std::int16_t label,
                     Segment& segment) const;

@@ -84,10 +84,12 @@ void see_joints_in_depths(benchmark::State& state, NetworkLibrary library) {
   DepthPoseParams params;
   params.library = library;
   const DepthPose network(params);
-  const Segments people = Segmenter().cut_out_people(cloud(), {seed_m()});
-  const RangeImage& view = people.segments.at(0).range_image.value();
-  for (auto _ : state)
-    benchmark::DoNotOptimize(network.look(view, seed_m(), cloud().stamp.gravity.down));
+  const Scene scene = look_at(cloud(), {});
+  const std::vector<std::int16_t> labels(cloud().points_m.size(), 0);
+  for (auto _ : state) {
+    const auto picture = draw_depths(scene, {labels, 0, seed_m()}, params.picture);
+    benchmark::DoNotOptimize(network.look(picture.value()));
+  }
 }
 BENCHMARK_CAPTURE(see_joints_in_depths, quickest, network_libraries().front())
     ->Unit(benchmark::kMillisecond);

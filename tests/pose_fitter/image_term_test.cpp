@@ -123,6 +123,19 @@ TEST_F(ImageTerm, CountsAJointAsSurelyAsItIsSeen) {
   EXPECT_NEAR(cost(moved), 0.25 * sure, 1e-9);
 }
 
+TEST_F(ImageTerm, CountsAMarkOfUnsurePlaceLessBesideItAndNoLessFarOff) {
+  tell_depths();
+  const auto costs = [&](Real off_m) {
+    look().joints[kWrist].spread = 1.0;
+    const Real sure = cost(with_wrist_moved({off_m, 0.0, off_m}));
+    look().joints[kWrist].spread = 3.0;
+    return cost(with_wrist_moved({off_m, 0.0, off_m})) / sure;
+  };
+  constexpr Real kNear_m = 0.003, kFar_m = 5.0;
+  EXPECT_NEAR(costs(kNear_m), 1.0 / 9.0, 0.01);
+  EXPECT_NEAR(costs(kFar_m), 1.0, 0.02);
+}
+
 TEST_F(ImageTerm, LeavesOutThePartsThatAreNotFitted) {
   EXPECT_NEAR(cost(with_wrist_moved({0.1, 0.0, 0.0}), kWithoutArms), 0.0, 1e-9);
 }

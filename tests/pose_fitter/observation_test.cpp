@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -31,27 +33,57 @@ TEST(ObservedPoints, OfARangeFinderWeighMoreSinceTheirErrorsAreTheirOwn) {
   EXPECT_NEAR(of_scanner / of_camera, ratio, 0.01F * ratio);
 }
 
-/// How much the left wrist counts that DepthPose sees so surely.
-Real counted_visibility_of_wrist(float visibility, bool has_colors) {
-  const BodyState body = testing::standing_body(2.5, 0.0);
-  Segment segment = testing::seen(body);
-  if (has_colors) segment = testing::colored(std::move(segment));
-  segment.image_poses = testing::in_depths(body);
-  segment.image_poses.back().joints.at(kWrist).visibility = visibility;
-  const auto observation = observe(segment, testing::stamp(), RefinedParams{});
-  return observation.value().looks.at(0).joints.at(kWrist).visibility;
+/// How the left wrist counts that DepthPose, and MoveNet so far to the side, see.
+class WristSeenInDepths : public ::testing::Test {
+ protected:
+  WristSeenInDepths() {
+    segment_.image_poses = testing::in_depths(body_);
+    segment_.image_poses.at(1) = testing::in_image(body_, ImageNetwork::kMoveNet);
+  }
+  ImageJoint& mark(ImageNetwork network) {
+    return segment_.image_poses.at(static_cast<std::size_t>(network)).joints.at(kWrist);
+  }
+  SeenJoint counted(ImageNetwork network) const {
+    const auto observation = observe(segment_, testing::stamp(), params_);
+    for (const ImageLook& look : observation.value().looks)
+      if (look.network == network) return look.joints.at(kWrist);
+    throw std::logic_error("the network did not look");
+  }
+  void take_for_hidden() { mark(ImageNetwork::kDepthPose).visibility = kHidden; }
+
+  static constexpr float kHidden = 0.01F;
+  const BodyState body_ = testing::standing_body(2.5, 0.0);
+  Segment segment_ = testing::colored(testing::seen(body_));
+  RefinedParams params_;
+};
+
+TEST_F(WristSeenInDepths, CountsWhereItIsHiddenTooAsNoOtherDoes) {
+  take_for_hidden();
+  mark(ImageNetwork::kMoveNet).visibility = kHidden;
+  EXPECT_GT(counted(ImageNetwork::kDepthPose).visibility, 0.6);
+  EXPECT_NEAR(counted(ImageNetwork::kMoveNet).visibility, kHidden, 1e-6);
 }
 
-TEST(JointsSeenInDepths, CountWhereTheyAreHiddenToo) {
-  const Real least = RefinedParams{}.image_least_visibility.back();
-  ASSERT_GT(least, 0.0);
-  for (const bool has_colors : {false, true})
-    EXPECT_EQ(counted_visibility_of_wrist(0.0F, has_colors), least);
+TEST_F(WristSeenInDepths, CountsLessWhereItIsHiddenAndColorsShowItElsewhere) {
+  const Real side_px = 1.5 * params_.image_elsewhere_m / 2.5 * testing::camera().fx;
+  mark(ImageNetwork::kMoveNet).px.x() += static_cast<float>(side_px);
+  EXPECT_NEAR(counted(ImageNetwork::kDepthPose).visibility, 1.0, 1e-6);
+  take_for_hidden();
+  EXPECT_LT(counted(ImageNetwork::kDepthPose).visibility, 0.4);
+  mark(ImageNetwork::kMoveNet).px.x() -= static_cast<float>(side_px);
+  EXPECT_GT(counted(ImageNetwork::kDepthPose).visibility, 0.6);
 }
 
-TEST(JointsSeenInDepths, CountMoreWhereNoColorsTellThemToo) {
-  EXPECT_NEAR(counted_visibility_of_wrist(0.64F, true), 0.64, 1e-6);
-  EXPECT_NEAR(counted_visibility_of_wrist(0.64F, false), 0.8, 1e-6);
+TEST_F(WristSeenInDepths, IsAsUnsureAsTheNetworkTells) {
+  const auto spread_of = [&](double told_m) {
+    mark(ImageNetwork::kDepthPose).spread_m = static_cast<float>(told_m);
+    return counted(ImageNetwork::kDepthPose).spread;
+  };
+  const Real usual_m = params_.usual_mark_spread_m;
+  EXPECT_NEAR(spread_of(usual_m), 1.0, 1e-6);
+  EXPECT_NEAR(spread_of(4.0 * usual_m), std::pow(4.0, params_.mark_spread_exponent), 1e-6);
+  EXPECT_NEAR(spread_of(1e-6), spread_of(params_.least_mark_spread_m), 1e-6);
+  EXPECT_EQ(spread_of(0.0), 1.0) << "not told";
 }
 
 /// What a network tells of an arm that it marks for the right one too, from the elbow or from the

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,64 +18,123 @@ namespace {
 
 const Eigen::Vector3f kDown(0.0F, 1.0F, 0.0F);
 
-/// A view of 100 x 100 px over 90 degrees in which everything is somebody's own and 2 m away.
-RangeImage wall() {
-  RangeImage view;
-  view.camera = {100, 100, 50.0, 50.0, 49.5, 49.5};
-  view.full_width = view.full_height = 100;
-  view.depth_m.assign(10000, 2.0F);
-  view.labels.assign(10000, PixelLabel::kPerson);
-  return view;
+/// Whose each point is: somebody's, or nobody's.
+constexpr std::int16_t kOwn = 0;
+
+/// A camera's view of 100 x 100 px over 90 degrees of a wall that is all somebody's own.
+struct Wall {
+  explicit Wall(float depth_m = 2.0F) {
+    cloud.camera = PinholeCamera{100, 100, 50.0, 50.0, 49.5, 49.5};
+    cloud.width = cloud.height = 100;
+    for (int v = 0; v < cloud.height; ++v) {
+      for (int u = 0; u < cloud.width; ++u)
+        cloud.points_m.push_back(
+            cloud.camera->back_project(static_cast<float>(u), static_cast<float>(v), depth_m));
+    }
+    labels.assign(cloud.points_m.size(), kOwn);
+  }
+  Wall& not_own() {
+    labels.assign(labels.size(), kNobody);
+    return *this;
+  }
+  /// Its middle is straight ahead and 2 m away.
+  std::optional<DepthPicture> drawn() const {
+    return draw_depths(look_at(cloud, {}), {labels, kOwn, head_m}, {});
+  }
+  DepthPicture picture() const { return drawn().value(); }
+
+  Cloud cloud;
+  std::vector<std::int16_t> labels;
+  Eigen::Vector3f head_m =
+      Eigen::Vector3f(0.0F, 0.0F, 2.0F) - DepthPictureParams{}.middle_below_head_m * kDown;
+};
+
+cv::Vec4f middle_of(const Wall& wall) {
+  return wall.picture().channels(kDepthPictureSide_px / 2, kDepthPictureSide_px / 2);
 }
 
-/// Somebody's head so that the picture's middle is straight ahead, as far as the wall.
-Eigen::Vector3f head_before_middle() {
-  return Eigen::Vector3f(0.0F, 0.0F, 2.0F) - DepthPictureParams{}.middle_below_head_m * kDown;
+void expect_near(const cv::Vec4f& seen, const cv::Vec4f& expected) {
+  constexpr double kRounding = 1e-3;
+  EXPECT_LT(cv::norm(seen - expected), kRounding) << seen << expected;
 }
 
-cv::Vec3f middle_of(const RangeImage& view) {
-  const auto picture = draw_depths(view, head_before_middle(), kDown, {});
-  return picture.value().channels(kDepthPictureSide_px / 2, kDepthPictureSide_px / 2);
+DepthPicture picture_of(const Cloud& cloud, const LabelledPerson& person) {
+  return draw_depths(look_at(cloud, {}), person, {}).value();
 }
 
 Eigen::Vector3f in_mirror(const Eigen::Vector3f& v) { return {-v.x(), v.y(), v.z()}; }
 
-RangeImage in_mirror(const RangeImage& view) {
-  RangeImage image = view;
-  const int width = view.camera.width;
-  image.camera.cx = width - 1 - view.camera.cx;
-  image.origin_u = view.full_width - width - view.origin_u;
-  for (std::size_t row = 0; row < view.depth_m.size(); row += static_cast<std::size_t>(width)) {
-    const auto begin = static_cast<std::ptrdiff_t>(row), end = begin + width;
-    std::reverse(image.depth_m.begin() + begin, image.depth_m.begin() + end);
-    std::reverse(image.labels.begin() + begin, image.labels.begin() + end);
+template <class Value>
+std::vector<Value> rows_in_mirror(std::vector<Value> values, int width) {
+  for (std::size_t row = 0; row < values.size(); row += static_cast<std::size_t>(width)) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row);
+    std::reverse(begin, begin + width);
   }
-  return image;
+  return values;
+}
+
+/// Without colours.
+Cloud in_mirror(const Cloud& cloud) {
+  Cloud mirror = cloud;
+  mirror.colors.clear();
+  mirror.camera->cx = cloud.width - 1 - cloud.camera->cx;
+  mirror.points_m = rows_in_mirror(cloud.points_m, cloud.width);
+  for (Eigen::Vector3f& point_m : mirror.points_m) point_m = in_mirror(point_m);
+  mirror.stamp.gravity.down = in_mirror(cloud.stamp.gravity.down);
+  return mirror;
+}
+
+/// The points of the cloud that a segment's view calls its own.
+std::vector<std::int16_t> labels_of(const Segment& segment, const Cloud& cloud) {
+  const RangeImage& view = segment.range_image.value();
+  std::vector<std::int16_t> labels(cloud.points_m.size(), kNobody);
+  for (std::size_t i = 0; i < view.labels.size(); ++i) {
+    const auto width = static_cast<std::size_t>(view.camera.width);
+    const std::size_t u = i % width + static_cast<std::size_t>(view.origin_u),
+                      v = i / width + static_cast<std::size_t>(view.origin_v);
+    if (view.labels[i] == PixelLabel::kPerson)
+      labels[v * static_cast<std::size_t>(cloud.width) + u] = kOwn;
+  }
+  return labels;
 }
 
 TEST(DepthPicture, ShowsThePersonsOwnDepthsAgainstTheMiddle) {
-  RangeImage view = wall();
-  EXPECT_EQ(middle_of(view), cv::Vec3f(1.0F, 0.0F, 0.0F));
-  view.depth_m.assign(view.depth_m.size(), 2.25F);
-  EXPECT_NEAR(middle_of(view)[1], 0.25F / DepthPictureParams{}.unit_m, 1e-4F);
-  view.depth_m.assign(view.depth_m.size(), 9.0F);
-  EXPECT_EQ(middle_of(view)[1], DepthPictureParams{}.most_units);
+  const DepthPictureParams params;
+  expect_near(middle_of(Wall()), {1.0F, 0.0F, 0.0F, 0.0F});
+  expect_near(middle_of(Wall(2.25F)), {1.0F, 0.25F / params.unit_m, 0.0F, 0.0F});
+  expect_near(middle_of(Wall(9.0F)), {1.0F, params.most_units, 0.0F, 0.0F});
 }
 
-TEST(DepthPicture, ShowsWhatElseStandsBeforeAndBehind) {
-  RangeImage view = wall();
-  view.labels.assign(view.labels.size(), PixelLabel::kOther);
-  view.depth_m.assign(view.depth_m.size(), 3.0F);
-  EXPECT_EQ(middle_of(view), cv::Vec3f(0.0F, 0.0F, 1.0F));
-  view.depth_m.assign(view.depth_m.size(), 1.0F);
-  EXPECT_EQ(middle_of(view), cv::Vec3f(0.0F, 0.0F, -1.0F));
-  view.depth_m.assign(view.depth_m.size(), 0.0F);
-  EXPECT_EQ(middle_of(view), cv::Vec3f(0.0F, 0.0F, 0.0F));
+TEST(DepthPicture, ShowsWhatElseStandsBeforeAndBehindAndHowFar) {
+  const DepthPictureParams params;
+  expect_near(middle_of(Wall(2.25F).not_own()), {0.0F, 0.0F, 1.0F, 0.25F / params.unit_m});
+  expect_near(middle_of(Wall(1.75F).not_own()), {0.0F, 0.0F, -1.0F, -0.25F / params.unit_m});
+  expect_near(middle_of(Wall(9.0F).not_own()), {0.0F, 0.0F, 1.0F, params.most_units});
+  Wall hole;
+  hole.cloud.points_m.assign(hole.cloud.points_m.size(), Eigen::Vector3f::Zero());
+  expect_near(middle_of(hole), {});
+}
+
+TEST(DepthPicture, ShowsWhatMayBeThePersonsAsSomethingElse) {
+  Wall wall;
+  wall.labels.assign(wall.labels.size(), kUnsure);
+  expect_near(middle_of(wall), {0.0F, 0.0F, 1.0F, 0.0F});
+}
+
+TEST(DepthPicture, ShowsTheSameOfAScan) {
+  Wall scan(2.25F);
+  scan.cloud.camera.reset();
+  scan.cloud.width = static_cast<int>(scan.cloud.points_m.size());
+  scan.cloud.height = 1;
+  const cv::Vec4f camera = middle_of(Wall(2.25F)), seen = middle_of(scan);
+  // A pixel between points takes the nearest one's level distance.
+  constexpr double kNearestPoint = 0.01;
+  EXPECT_LT(cv::norm(seen - camera), kNearestPoint) << seen << camera;
 }
 
 TEST(DepthPicture, IsAsWideAsToldAroundTheMiddle) {
   const DepthPictureParams params;
-  const DepthPicture picture = draw_depths(wall(), head_before_middle(), kDown, params).value();
+  const DepthPicture picture = Wall().picture();
   EXPECT_FLOAT_EQ(picture.middle_m, 2.0F);
   const auto at_edge = [&](float px) {
     return picture.camera.back_project(px, px, picture.middle_m).x();
@@ -84,13 +143,15 @@ TEST(DepthPicture, IsAsWideAsToldAroundTheMiddle) {
 }
 
 TEST(DepthPicture, IsEmptyBesideTheView) {
-  RangeImage view = wall();
-  view.camera.cx -= 1000.0;
-  EXPECT_EQ(middle_of(view), cv::Vec3f(0.0F, 0.0F, 0.0F));
+  Wall wall;
+  wall.cloud.camera->cx -= 1000.0;
+  expect_near(middle_of(wall), {});
 }
 
 TEST(DepthPicture, IsNoneOfSomebodyStraightAbove) {
-  EXPECT_FALSE(draw_depths(wall(), Eigen::Vector3f::Zero(), kDown, {}));
+  Wall wall;
+  wall.head_m.setZero();
+  EXPECT_FALSE(wall.drawn());
 }
 
 /// The person of the demo log's first frame, as a camera without colours sees it.
@@ -109,6 +170,8 @@ class DepthsOfTheDemo : public ::testing::Test {
 
   const test::DemoFrame& frame_ = test::demo_frame();
   const BodyPose& person_ = frame_.truth.persons.at(0);
+  const Cloud cloud_ = colorless(frame_.cloud);
+  const std::vector<std::int16_t> labels_ = labels_of(segment(cloud_).segments.at(0), cloud_);
 };
 
 TEST_F(DepthsOfTheDemo, ShowEachJointAndItsSideWithoutColors) {
@@ -132,53 +195,81 @@ TEST_F(DepthsOfTheDemo, ShowEachJointAndItsSideWithoutColors) {
 }
 
 TEST_F(DepthsOfTheDemo, ShowTheSameInTheMirror) {
-  const RangeImage view = segment(colorless(frame_.cloud)).segments.at(0).range_image.value();
+  const Cloud mirror = in_mirror(cloud_);
+  const auto mirror_labels = rows_in_mirror(labels_, cloud_.width);
   const Eigen::Vector3f head_m = person_[Joint::kHead].position_m;
-  const Eigen::Vector3f down = frame_.cloud.stamp.gravity.down;
   const DepthPose network{DepthPoseParams{}};
-  const auto seen = network.look(view, head_m, down);
-  const auto mirrored_seen = network.look(in_mirror(view), in_mirror(head_m), in_mirror(down));
+  const auto seen = network.look(picture_of(cloud_, {labels_, kOwn, head_m}));
+  const auto mirrored_seen =
+      network.look(picture_of(mirror, {mirror_labels, kOwn, in_mirror(head_m)}));
   ASSERT_TRUE(seen && mirrored_seen);
   // Nearest pixels of the view are taken: one may be another in the mirror.
-  constexpr float kOnePixel = 1.0F, kNear_m = 0.02F;
+  constexpr float kNear_m = 0.02F;
   EXPECT_NEAR(seen->person_score, mirrored_seen->person_score, 0.01F);
   for (int i = 0; i < kJointCount; ++i) {
-    const ImageJoint& joint = seen->joints.at(static_cast<std::size_t>(i));
-    const ImageJoint& other = mirrored_seen->joints.at(static_cast<std::size_t>(mirrored(i)));
-    EXPECT_NEAR(joint.px.x() + other.px.x(), static_cast<float>(view.full_width - 1), kOnePixel)
-        << kJointNames[static_cast<std::size_t>(i)];
-    EXPECT_NEAR(joint.px.y(), other.px.y(), kOnePixel) << kJointNames[static_cast<std::size_t>(i)];
-    EXPECT_NEAR(joint.behind_hips_m, other.behind_hips_m, kNear_m)
+    const Eigen::Vector3f& place_m = seen->places_m.at(static_cast<std::size_t>(i));
+    const Eigen::Vector3f& other_m =
+        mirrored_seen->places_m.at(static_cast<std::size_t>(mirrored(i)));
+    EXPECT_LT((place_m - in_mirror(other_m)).norm(), kNear_m)
         << kJointNames[static_cast<std::size_t>(i)];
   }
+}
+
+TEST_F(DepthsOfTheDemo, ShowAnArmThatIsCutOffAsSomethingElse) {
+  const PinholeCamera& camera = *cloud_.camera;
+  const Eigen::Vector3f& wrist_m = person_[Joint::kWristLeft].position_m;
+  constexpr float kCut_m = 0.15F;
+  std::vector<std::int16_t> without_hand = labels_;
+  for (std::size_t i = 0; i < without_hand.size(); ++i) {
+    if ((cloud_.points_m[i] - wrist_m).norm() < kCut_m) without_hand[i] = kNobody;
+  }
+  ASSERT_NE(without_hand, labels_);
+  const auto seen =
+      DepthPose(DepthPoseParams{})
+          .look(picture_of(cloud_, {without_hand, kOwn, person_[Joint::kHead].position_m}));
+  ASSERT_TRUE(seen);
+  constexpr float kNear_m = 0.06F;
+  const Eigen::Vector3f& told_m = seen->places_m[index(Joint::kWristLeft)];
+  const Eigen::Vector2f told_px = camera.project(told_m), px = camera.project(wrist_m);
+  EXPECT_LT((told_px - px).norm() * wrist_m.z() / camera.fx, kNear_m);
+}
+
+TEST_F(DepthsOfTheDemo, TellHowUnsureTheyAreWhereAnArmIs) {
+  const auto spread_m = [&](const std::vector<std::int16_t>& labels) {
+    const auto seen =
+        DepthPose(DepthPoseParams{})
+            .look(picture_of(cloud_, {labels, kOwn, person_[Joint::kHead].position_m}));
+    return seen.value().spreads_m[index(Joint::kWristLeft)];
+  };
+  constexpr float kUsual_m = 0.02F;
+  EXPECT_NEAR(spread_m(labels_), kUsual_m, 0.5F * kUsual_m);
+  EXPECT_GT(spread_m(std::vector<std::int16_t>(labels_.size(), kUnsure)), 2.0F * kUsual_m);
 }
 
 TEST_F(DepthsOfTheDemo, ShowAPersonAndDoNotShowOneInAWall) {
   constexpr float kSure = 0.9F;
   EXPECT_GT(seen_in(frame_.cloud).person_score, kSure);
-  const auto seen = DepthPose(DepthPoseParams{}).look(wall(), head_before_middle(), kDown);
+  const Wall wall;
+  const auto seen = DepthPose(DepthPoseParams{}).look(wall.picture());
   ASSERT_TRUE(seen);
   EXPECT_LT(seen->person_score, 1.0F - kSure);
 }
 
 TEST_F(DepthsOfTheDemo, TellWhetherAPersonIsThereAsALookDoes) {
   const DepthPose network{DepthPoseParams{}};
-  const RangeImage person = segment(colorless(frame_.cloud)).segments.at(0).range_image.value();
   constexpr float kSure = 4.0F;
-  EXPECT_TRUE(network.shows_person(person, person_[Joint::kHead].position_m,
-                                   frame_.cloud.stamp.gravity.down, kSure));
+  EXPECT_TRUE(network.shows_person(
+      picture_of(cloud_, {labels_, kOwn, person_[Joint::kHead].position_m}), kSure));
   // To the network something else in the mirror.
-  RangeImage wall_on_the_left = wall();
-  for (std::size_t i = 0; i < wall_on_the_left.depth_m.size(); ++i) {
-    const auto width = static_cast<std::size_t>(wall_on_the_left.camera.width);
-    if (i % width > width / 2) wall_on_the_left.labels[i] = PixelLabel::kOther;
+  Wall wall_on_the_left;
+  for (std::size_t i = 0; i < wall_on_the_left.labels.size(); ++i) {
+    const auto width = static_cast<std::size_t>(wall_on_the_left.cloud.width);
+    if (i % width > width / 2) wall_on_the_left.labels[i] = kNobody;
   }
-  const auto wall_is_over = [&](float odds) {
-    return network.shows_person(wall_on_the_left, head_before_middle(), kDown, odds);
-  };
+  const DepthPicture picture = wall_on_the_left.picture();
+  const auto wall_is_over = [&](float odds) { return network.shows_person(picture, odds); };
   EXPECT_FALSE(wall_is_over(kSure));
-  const float odds =
-      log_odds(network.look(wall_on_the_left, head_before_middle(), kDown)->person_score);
+  const float odds = log_odds(network.look(picture)->person_score);
   constexpr float kRounding = 0.01F;
   EXPECT_TRUE(wall_is_over(odds - kRounding)) << odds;
   EXPECT_FALSE(wall_is_over(odds + kRounding)) << odds;

@@ -21,15 +21,19 @@ sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../modules/segmen
 import tflite_writer  # noqa: E402
 from tflite_writer import ADD, CONVOLUTION, RELU, RESIZE  # noqa: E402
 
+CHANNELS_SEEN = 4  # of the picture: OWN ...
+OWN, DEPTH, OTHER, OTHER_DEPTH = range(CHANNELS_SEEN)
 SIDE, CELLS, JOINTS = 128, 32, 16  # of the picture [px], of the grid that the network tells, of the body
 CELL = SIDE // CELLS
 DEPTH_UNIT_M = 0.25  # of the depths that the network tells; depth_pose.cpp knows it
 PICTURE_UNIT_M = 0.5  # of the picture's depths (DepthPictureParams)
-RECORD = np.dtype([("channels", "<f2", (SIDE, SIDE, 3)), ("joints", "<f4", (JOINTS, 5)), ("px_per_m", "<f4"),
-                   ("is_person", "<f4")])
+RECORD = np.dtype([("channels", "<f2", (SIDE, SIDE, CHANNELS_SEEN)), ("joints", "<f4", (JOINTS, 5)),
+                   ("px_per_m", "<f4"), ("is_person", "<f4")])
 U, V, BEHIND_M, VISIBLE, TOLD = range(5)  # of a joint in a record; behind the picture's middle
-PRESENCE, OFFSET_U, OFFSET_V, DEPTH, SIGHT = range(5)  # what a cell tells of each joint
+PRESENCE, OFFSET_U, OFFSET_V, BEHIND, SIGHT = range(5)  # what a cell tells of each joint
 PERSON = JOINTS * 5  # the last figure of a cell: its mean over all cells is the log odds that a person is there
+MOST_UNITS = 2.0  # of a picture's depths (DepthPictureParams)
+LIMB_ENDS = [6, 7, 8, 9, 12, 13, 14, 15]  # elbows, wrists, knees, ankles
 MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
 
 CYCLES = ((24, 2e-3), (8, 1e-3))  # epochs, and the highest rate, which falls to nothing in each
@@ -78,7 +82,7 @@ class DepthPose(nn.Module):
     def __init__(self):
         super().__init__()
         channels = CHANNELS
-        self.stages = nn.ModuleList(map(Stage, (3, *channels), channels, BLOCKS))
+        self.stages = nn.ModuleList(map(Stage, (CHANNELS_SEEN, *channels), channels, BLOCKS))
         self.joined = nn.ModuleList([Joined(channels[3], channels[2]), Joined(channels[2], channels[1])])
         self.out = nn.Conv2d(channels[1], JOINTS * 5 + 1, 1)
         with torch.no_grad():
@@ -112,6 +116,14 @@ def mirror_some(x, joints, random):
     return torch.where(some[:, None, None, None], x.flip(3), x), torch.where(some[:, None, None], mirrored, joints)
 
 
+def change_depths(x, change):
+    """Of what was measured; what else than the person was is before or behind the middle by its depth."""
+    own, other = x[:, OWN], (x[:, OTHER] != 0).float()
+    x[:, DEPTH] = change(x[:, DEPTH]).clamp(-MOST_UNITS, MOST_UNITS) * own
+    x[:, OTHER_DEPTH] = change(x[:, OTHER_DEPTH]).clamp(-MOST_UNITS, MOST_UNITS) * other
+    x[:, OTHER] = torch.where(x[:, OTHER_DEPTH] < 0, -other, other)
+
+
 def move(x, joints, random):
     """Turned by 3.4 degrees, 8 % larger, moved by 4 px and 5 cm in depth (standard deviations)."""
     count = len(x)
@@ -126,7 +138,7 @@ def move(x, joints, random):
     from_u, from_v = each(cos) * u - each(sin) * v, each(sin) * u + each(cos) * v
     grid = (torch.stack([from_u, from_v], 3) + middle + 0.5) / SIDE * 2 - 1
     x = F.grid_sample(x, grid, mode="nearest", padding_mode="zeros", align_corners=False)
-    x[:, 1] = (x[:, 1] * each(size) + each(behind_m) / PICTURE_UNIT_M) * x[:, 0]
+    change_depths(x, lambda depths: depths * each(size) + each(behind_m) / PICTURE_UNIT_M)
     du, dv = joints[:, :, U] - middle, joints[:, :, V] - middle
     joints = joints.clone()
     joints[:, :, U] = size[:, None] * (cos[:, None] * du + sin[:, None] * dv) + middle + shift[:, :1]
@@ -139,11 +151,12 @@ def add_noise(x, random):
     """Of up to 3 cm from pixel to pixel, and in a third of the pictures in waves of a hand's size, as matching by
     windows makes them."""
     spread = lambda: torch.from_numpy((0.03 * random.random((len(x), 1, 1)) ** 2).astype(np.float32))
-    x[:, 1] += torch.randn(len(x), SIDE, SIDE) * spread() / PICTURE_UNIT_M * x[:, 0]
+    noise = torch.randn(len(x), SIDE, SIDE) * spread()
     wavy = torch.from_numpy((random.random((len(x), 1, 1)) < 0.33).astype(np.float32))
     waves = F.interpolate(torch.randn(len(x), 1, SIDE // 6, SIDE // 6), size=(SIDE, SIDE), mode="bicubic",
                           align_corners=False)[:, 0]
-    x[:, 1] += waves * wavy * spread() / PICTURE_UNIT_M * x[:, 0]
+    noise += waves * wavy * spread()
+    change_depths(x, lambda depths: depths + noise / PICTURE_UNIT_M)
 
 
 def hide_parts(x, random):
@@ -154,8 +167,10 @@ def hide_parts(x, random):
             width, height = random.integers(8, 40, 2)
             left, top = random.integers(0, SIDE - width), random.integers(0, SIDE - height)
             part = picture[:, top:top + height, left:left + width]
-            part[:2] = 0
-            part[2] = -1 if random.random() < 0.5 else 0
+            part[:] = 0
+            if random.random() < 0.5:
+                part[OTHER] = -1
+                part[OTHER_DEPTH] = -random.uniform(0.3, MOST_UNITS)
         if random.random() < 0.1:
             picture[:, random.integers(SIDE // 2, SIDE):] = 0
         if random.random() < 0.1:
@@ -163,6 +178,21 @@ def hide_parts(x, random):
         if random.random() < 0.1:
             edge = random.integers(SIDE // 8, SIDE * 3 // 8)
             picture[:, :, slice(edge) if random.random() < 0.5 else slice(SIDE - edge, SIDE)] = 0
+
+
+def cut_some_limbs(x, joints, random):
+    """As the segmenter does: what is around an elbow, a wrist, a knee or an ankle is taken for something else, or not
+    for the person's alone."""
+    rows, columns = torch.meshgrid(torch.arange(SIDE).float(), torch.arange(SIDE).float(), indexing="ij")
+    for picture, places in zip(x, joints):
+        if random.random() < 0.3:
+            joint = places[random.choice(LIMB_ENDS)]
+            radius_px = random.uniform(5, 18)
+            cut = (columns - joint[U]) ** 2 + (rows - joint[V]) ** 2 < radius_px ** 2
+            cut = (cut & (picture[OWN] > 0)).float()
+            picture[OTHER_DEPTH] += cut * picture[DEPTH]
+            picture[OTHER] += torch.where(picture[DEPTH] < 0, -cut, cut)
+            picture[:2] *= 1 - cut
 
 
 def joints_in_sight(joints, lost):
@@ -208,6 +238,7 @@ def varied(x, joints, random):
     own = x[:, 0].clone()
     hide_parts(x, random)
     joints = joints_in_sight(joints, own - x[:, 0])
+    cut_some_limbs(x, joints, random)
     lose_some_edges(x, random)
     smear_some(x, random)
     return x, joints
@@ -392,7 +423,7 @@ class Graph(tflite_writer.Graph):
 
 
 def write(network, path):
-    graph = Graph("picture", (1, SIDE, SIDE, 3))
+    graph = Graph("picture", (1, SIDE, SIDE, CHANNELS_SEEN))
     seen, x = [], 0
     for stage in network.stages:
         x = graph.stage(x, stage)

@@ -33,7 +33,7 @@ struct TrueJoint {
   float visible = 0.0F, told = 0.0F;  ///< 0 or 1
 };
 struct Record {
-  std::array<Eigen::half, kDepthPictureSide_px * kDepthPictureSide_px * 3> channels;
+  std::array<Eigen::half, kDepthPictureSide_px * kDepthPictureSide_px * 4> channels;
   std::array<TrueJoint, kJointCount> joints;
   float px_per_m = 0.0F;   ///< at the picture's middle
   float is_person = 0.0F;  ///< 0 or 1: a thing
@@ -67,15 +67,13 @@ TrueJoint joint_in(const DepthPicture& picture, const TruePerson& person, const 
   return {px.x(), px.y(), place_m.z() - picture.middle_m, in_sight ? 1.0F : 0.0F, 1.0F};
 }
 
-std::optional<Record> record_of(const Segment& segment, const LoadedFrame& frame,
-                                const Eigen::Vector3f& down) {
-  if (!segment.valid() || !segment.range_image) return std::nullopt;
+std::optional<Record> record_of(const Segment& segment, const std::optional<DepthPicture>& picture,
+                                const LoadedFrame& frame) {
+  if (!segment.valid() || !picture) return std::nullopt;
   const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
   const TruePerson* person = person_at(head_m, frame);
   // Beside people a candidate that is at nobody's head may be somebody's hand.
   if (person == nullptr && !shows_nobody(frame)) return std::nullopt;
-  const auto picture = draw_depths(*segment.range_image, head_m, down, DepthPictureParams{});
-  if (!picture) return std::nullopt;
   Record record;
   const auto* channels = picture->channels.ptr<float>();
   for (std::size_t i = 0; i < record.channels.size(); ++i)
@@ -89,10 +87,11 @@ std::optional<Record> record_of(const Segment& segment, const LoadedFrame& frame
 }
 
 std::vector<Record> records_of(const LoadedFrame& frame, const Segmenter& segmenter) {
-  const Segments segments = segmenter.segment(frame.cloud);
+  DepthPictures pictures;
+  const Segments segments = segmenter.segment(frame.cloud, &pictures);
   std::vector<Record> records;
-  for (const Segment& segment : segments.segments) {
-    const auto record = record_of(segment, frame, segments.stamp.gravity.down);
+  for (std::size_t k = 0; k < segments.segments.size(); ++k) {
+    const auto record = record_of(segments.segments[k], pictures[k], frame);
     if (record) records.push_back(*record);
   }
   return records;

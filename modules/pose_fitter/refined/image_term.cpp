@@ -64,7 +64,7 @@ Real saturated(Real square_error, Real limit) {
 
 /// 0 on the ray, 1 far off it.
 Real share_of_limit(const SeenJoint& seen, const Vec3& point, Real limit_m) {
-  return saturated(point.cross(seen.ray).squaredNorm(), limit_m);
+  return saturated(point.cross(seen.ray).squaredNorm(), limit_m * seen.spread);
 }
 
 /// How much farther away than the network tells.
@@ -72,21 +72,25 @@ Real depth_error_m(const SeenJoint& seen, const Vec3& point, Real hips_m) {
   return point.z() - hips_m - seen.behind_hips_m;
 }
 
+Real depth_sigma_m(const SeenJoint& seen, const RefinedParams& params) {
+  return params.image_depth_sigma_m * seen.spread;
+}
+
 /// 0 as far away as the network tells, 1 far off.
-Real share_of_depth_limit(Real error_m, const RefinedParams& params) {
-  return saturated(square(error_m), params.image_depth_sigma_m * params.image_limit_sigmas);
+Real share_of_depth_limit(const SeenJoint& seen, Real error_m, const RefinedParams& params) {
+  return saturated(square(error_m), depth_sigma_m(seen, params) * params.image_limit_sigmas);
 }
 
 /// A joint is as far behind the hips as the network tells.
 void add_depth_row(const ImageLook& look, const SeenJoint& seen, int joint, Real error_m,
                    const RefinedParams& params, NormalEquations& equations) {
-  const Real shrink = 1.0 - share_of_depth_limit(error_m, params);
+  const Real shrink = 1.0 - share_of_depth_limit(seen, error_m, params);
   equations.start_row();
   equations.derivative_of_point(joint, Vec3::UnitZ());
   for (int side = 0; side < 2; ++side)
     equations.derivative_of_point(kHip + side, -0.5 * Vec3::UnitZ());
   equations.add_row(
-      error_m, look.depth_weight * seen.visibility * square(shrink / params.image_depth_sigma_m));
+      error_m, look.depth_weight * seen.visibility * square(shrink / depth_sigma_m(seen, params)));
 }
 
 /// Beyond this difference of cost the sides are as clear as they get: two joints far off their
@@ -148,7 +152,8 @@ void add_look(const BodyState& body, const ImageLook& look, unsigned parts,
     if (seen.visibility <= 0.0 || (parts & part_of(joint)) == 0) continue;
     const Vec3 point = marked_place(body, joint, look.network);
     const Real shrink = 1.0 - share_of_limit(seen, point, limit_m);
-    const Real information = look.weight * seen.visibility * shrink * shrink / (sigma_m * sigma_m);
+    const Real information =
+        look.weight * seen.visibility * square(shrink / (sigma_m * seen.spread));
     // Two directions across the ray; along it the image tells nothing.
     const Vec3 first = seen.ray.unitOrthogonal();
     for (const Vec3& direction : {first, Vec3(seen.ray.cross(first))}) {
@@ -182,7 +187,8 @@ Real image_cost(const ImageLook& look, int seen_joint, const Vec3& point, Real h
   if (seen.visibility <= 0.0) return 0.0;
   Real cost = look.weight * share_of_limit(seen, point, limit_of(look.network, params));
   if (look.depth_weight > 0.0)
-    cost += look.depth_weight * share_of_depth_limit(depth_error_m(seen, point, hips_m), params);
+    cost +=
+        look.depth_weight * share_of_depth_limit(seen, depth_error_m(seen, point, hips_m), params);
   return 0.5 * seen.visibility * square(params.image_limit_sigmas) * cost;
 }
 

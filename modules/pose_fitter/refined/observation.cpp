@@ -155,13 +155,36 @@ Real apart_m(const ImageLook& look, int left_joint, Real distance_m) {
   return distance_m * look.joints[left_joint].ray.cross(look.joints[left_joint + 1].ray).norm();
 }
 
-/// Somebody's seen arm, marked for the hidden one too, says nothing of where that one is.
+/// Somebody's seen arm, marked for the hidden one too by a network that tells of arms in sight,
+/// says nothing of where that one is.
 void leave_out_one_arm_marked_twice(Real distance_m, const RefinedParams& params, ImageLook& look) {
-  if (look.network == ImageNetwork::kDepthPose) return;  // it tells of hidden arms, too
   if (apart_m(look, kElbow, distance_m) > params.image_one_arm_m ||
       apart_m(look, kWrist, distance_m) > params.image_one_arm_m)
     return;
   for (int joint = kElbow; joint < kHip; ++joint) look.joints[joint].visibility = 0.0;
+}
+
+/// How unsure the place of a mark is, against a usual one.
+Real relative_spread(const ImageJoint& joint, const RefinedParams& params) {
+  if (joint.spread_m == 0.0F) return 1.0;  // the network does not tell
+  const Real spread_m = std::max<Real>(joint.spread_m, params.least_mark_spread_m);
+  return std::pow(spread_m / params.usual_mark_spread_m, params.mark_spread_exponent);
+}
+
+/// What the network of depths takes for hidden it guesses; colours may show it elsewhere.
+void doubt_what_is_seen_elsewhere(const std::vector<ImageLook>& others, Real distance_m,
+                                  const RefinedParams& params, ImageLook& look) {
+  for (std::size_t joint = 0; joint < look.joints.size(); ++joint) {
+    SeenJoint& mark = look.joints[joint];
+    Real seen_elsewhere = 0.0;
+    for (const ImageLook& other : others) {
+      const SeenJoint& seen = other.joints[joint];
+      if (distance_m * seen.ray.cross(mark.ray).norm() > params.image_elsewhere_m)
+        seen_elsewhere = std::max(seen_elsewhere, seen.visibility);
+    }
+    mark.visibility *=
+        1.0 - params.image_elsewhere_doubt * (1.0 - mark.told_visibility) * seen_elsewhere;
+  }
 }
 
 void set_looks(const Segment& segment, const RangeImage& image, const RefinedParams& params,
@@ -177,16 +200,20 @@ void set_looks(const Segment& segment, const RangeImage& image, const RefinedPar
     look.weight = params.image_weight.at(network);
     look.depth_weight = params.image_depth_weight.at(network);
     look.person_score = pose.person_score;
-    const Real least_visibility = params.image_least_visibility.at(network);
-    const Real exponent = observation.has_colors ? 1.0 : params.colorless_visibility_exponent;
+    const Real exponent = params.image_visibility_exponent.at(network);
     for (const ImageJoint& joint : pose.joints) {
       const Eigen::Vector2f px = joint.px - origin_px;
       look.joints[index(joint.joint)] = {
           image.camera.back_project(px.x(), px.y(), 1.0F).cast<Real>().normalized(),
-          std::max<Real>(least_visibility, std::pow(joint.visibility, exponent)),
-          joint.behind_hips_m, joint.visibility};
+          std::pow(joint.visibility, exponent), joint.behind_hips_m, joint.visibility,
+          relative_spread(joint, params)};
     }
-    leave_out_one_arm_marked_twice(observation.head_start.norm(), params, look);
+    const Real distance_m = observation.head_start.norm();
+    if (look.network == ImageNetwork::kDepthPose) {
+      doubt_what_is_seen_elsewhere(observation.looks, distance_m, params, look);
+    } else {
+      leave_out_one_arm_marked_twice(distance_m, params, look);
+    }
     observation.looks.push_back(look);
   }
 }

@@ -29,6 +29,7 @@ struct SeenJoint {
   Real visibility = 0.0;       ///< 0 to 1, as it counts in the fit; 0: not told
   Real behind_hips_m = 0.0;    ///< how much farther away than the hips' middle; rough
   Real told_visibility = 0.0;  ///< how sure the network is that it is in sight, 0 to 1
+  Real spread = 1.0;           ///< how unsure the mark's place is, 1: as usual with this network
 };
 
 /// A person as one of them sees it.

@@ -44,17 +44,23 @@ struct RefinedParams {
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
   std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
-  std::array<double, 3> image_weight = {1.25, 2.5, 2.5};
+  std::array<double, 3> image_weight = {1.18, 2.5, 2.5};
   double image_limit_sigmas = 4.0;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
   std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.75};
   double image_depth_sigma_m = 0.05;
-  /// A joint counts as its network is sure that it is in sight, and this at least: the one that
-  /// tells depths is mostly right about hidden joints too. Without colours, where it alone looks,
-  /// as a root of it. Tuned on simulated people and D1 to D3.
-  std::array<double, 3> image_least_visibility = {0.0, 0.0, 0.25};
-  double colorless_visibility_exponent = 0.5;
+  /// A joint counts as this power of how sure its network is that it is in sight: the one that
+  /// tells depths is mostly right about hidden joints too. Tuned on simulated people.
+  std::array<double, 3> image_visibility_exponent = {1.0, 1.0, 0.073};
+  /// Instead it tells how far off each mark is: what is usual [m], the least that is believed [m],
+  /// and by what power of their ratio a mark's spreads above follow. Tuned on simulated people.
+  double usual_mark_spread_m = 0.02, least_mark_spread_m = 0.0065;
+  double mark_spread_exponent = 0.85;
+  /// A joint that it takes for hidden, and that a network of colours sees farther from there than
+  /// this [m], counts less by up to this share. Tuned on simulated people.
+  double image_elsewhere_m = 0.15;
+  double image_elsewhere_doubt = 0.7;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;

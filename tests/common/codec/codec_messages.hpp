@@ -147,7 +147,7 @@ inline segments_t segments_message() {
   segment.face = {2.5F, -1.5F};
   segment.image_poses = {{0.6F,
                           {{Joint::kHead, {12.5F, -3.0F}, 0.9F, -0.2F},
-                           {Joint::kAnkleRight, {30.0F, 700.0F}, 0.1F, 0.3F}}},
+                           {Joint::kAnkleRight, {30.0F, 700.0F}, 0.1F, 0.3F, 0.02F}}},
                          {},
                          {0.5F, {{Joint::kHead, {13.0F, -2.0F}, 0.8F, 0.0F}}}};
   segment.rejected_by = SegmentFilter::kNotHeadShaped;

@@ -107,6 +107,7 @@ TEST(CodecMessages, KeepEveryFieldOfASegment) {
   EXPECT_EQ(joint.px, Eigen::Vector2f(30.0F, 700.0F));
   EXPECT_EQ(joint.visibility, 0.1F);
   EXPECT_EQ(joint.behind_hips_m, 0.3F);
+  EXPECT_EQ(joint.spread_m, 0.02F);
   EXPECT_EQ(segment.rejected_by, SegmentFilter::kNotHeadShaped);
   EXPECT_EQ(segment.filter_figure, 12.0F);
   EXPECT_EQ(segment.filter_limit, 300.0F);

@@ -141,7 +141,10 @@ TEST(CodecRefusals, NameWhatIsWrongWithAPersonOfAnImage) {
        {[=](Message& m) { joint(m).visibility = 1.1F; }, range},
        {[=](Message& m) { joint(m).visibility = kNaN; }, range},
        {[=](Message& m) { joint(m).behind_hips_m = kNaN; }, range},
-       {[=](Message& m) { joint(m).behind_hips_m = 1e5F; }, range}});
+       {[=](Message& m) { joint(m).behind_hips_m = 1e5F; }, range},
+       {[=](Message& m) { joint(m).spread_m = -0.01F; }, range},
+       {[=](Message& m) { joint(m).spread_m = kNaN; }, range},
+       {[=](Message& m) { joint(m).spread_m = 1e5F; }, range}});
 }
 
 TEST(CodecRefusals, NameWhatIsWrongWithACalibration) {
