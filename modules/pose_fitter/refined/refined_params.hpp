@@ -35,7 +35,7 @@ struct RefinedParams {
   double search_surface_sigma_m = 0.05;
   double arm_search_surface_sigma_m = 0.03;
   /// Residuals beyond this many sigmas stop counting (Geman-McClure). Tuned.
-  double robust_sigmas = 2.0;
+  double robust_sigmas = 2.05;
   /// Cost of a body part outside of the person's silhouette, against the surface and against a part
   /// before the surface that was seen: silhouettes are cut wrongly more often than depths are
   /// measured so. Tuned.
@@ -44,7 +44,7 @@ struct RefinedParams {
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
   std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
-  std::array<double, 3> image_weight = {1.18, 2.5, 2.5};
+  std::array<double, 3> image_weight = {1.2, 2.5, 2.5};
   double image_limit_sigmas = 4.0;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
@@ -52,7 +52,7 @@ struct RefinedParams {
   double image_depth_sigma_m = 0.05;
   /// A joint counts as this power of how sure its network is that it is in sight: the one that
   /// tells depths is mostly right about hidden joints too. Tuned on simulated people.
-  std::array<double, 3> image_visibility_exponent = {1.0, 1.0, 0.073};
+  std::array<double, 3> image_visibility_exponent = {1.0, 1.0, 0.075};
   /// Instead it tells how far off each mark is: what is usual [m], the least that is believed [m],
   /// and by what power of their ratio a mark's spreads above follow. Tuned on simulated people.
   double usual_mark_spread_m = 0.02, least_mark_spread_m = 0.0065;
