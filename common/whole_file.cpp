@@ -21,10 +21,11 @@ void write(const fs::path& path, std::string_view bytes) {
   if (!file) throw std::system_error(errno, std::generic_category());
 }
 
-/// No file may take the place of a pipe, a terminal or /dev/null.
-bool is_device(const fs::path& path) {
+/// No file may take the place of a pipe, a terminal or /dev/null, nor of a file that the shell has
+/// opened as /dev/stdout.
+bool is_device(const std::string& path) {
   std::error_code unreachable;
-  return fs::is_other(path, unreachable);
+  return fs::is_other(path, unreachable) || path.rfind("/dev/", 0) == 0;
 }
 
 /// The file that a link leads to, where it leads to one.

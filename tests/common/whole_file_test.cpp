@@ -1,8 +1,10 @@
 #include "common/whole_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -34,6 +36,18 @@ TEST(WholeFile, TakesThePlaceOfTheOneBefore) {
   write_whole_file(path, std::string("new\0text", 8));
   EXPECT_EQ(text_of(path), std::string("new\0text", 8));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(WholeFile, GoesToWhatTheShellHasOpened) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("out.txt", "");
+  const int shells = open(path.c_str(), O_WRONLY);  // NOLINT(*-vararg)
+  write_whole_file("/dev/fd/" + std::to_string(shells), std::string("from the program, "));
+  lseek(shells, 0, SEEK_END);
+  const std::string_view later = "from the shell";
+  EXPECT_EQ(write(shells, later.data(), later.size()), static_cast<ssize_t>(later.size()));
+  close(shells);
+  EXPECT_EQ(text_of(path), "from the program, from the shell");
 }
 
 /// As on a disk that is full after so many bytes.
