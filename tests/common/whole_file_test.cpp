@@ -14,6 +14,7 @@
 #include <iterator>
 #include <string>
 
+#include "tests/support/rights.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
@@ -69,6 +70,21 @@ TEST(WholeFile, IsAsItWasWhereTheDiskIsFull) {
               ::testing::HasSubstr("report.txt: cannot be written (File too large)"));
   EXPECT_EQ(text_of(path), "before");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(WholeFile, IsWrittenInAFolderThatIsNot) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("report.txt", "before");
+  std::filesystem::permissions(path, static_cast<std::filesystem::perms>(0666));
+  std::filesystem::permissions(folder.path(), static_cast<std::filesystem::perms>(0555));
+  const auto overwrite = [&] {
+    test::give_up_rights();
+    write_whole_file(path, std::string("after"));
+    std::exit(0);
+  };
+  EXPECT_EXIT(overwrite(), ::testing::ExitedWithCode(0), "");
+  EXPECT_EQ(text_of(path), "after");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
 TEST(WholeFile, IsNamedWithTheReasonWhereItCannotBeWritten) {
