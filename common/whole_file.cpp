@@ -21,10 +21,11 @@ void write(const fs::path& path, std::string_view bytes) {
   if (!file) throw std::system_error(errno, std::generic_category());
 }
 
-/// No file may take the place of a pipe, a terminal or /dev/null.
-bool is_device(const fs::path& path) {
+/// No file may take the place of a pipe, a terminal or /dev/null, nor of a file that the shell has
+/// opened as /dev/stdout.
+bool is_device(const std::string& path) {
   std::error_code unreachable;
-  return fs::is_other(path, unreachable);
+  return fs::is_other(path, unreachable) || path.rfind("/dev/", 0) == 0;
 }
 
 /// The file that a link leads to, where it leads to one.
@@ -34,16 +35,24 @@ fs::path end_of_links(const fs::path& path) {
   return leads_nowhere ? path : end;
 }
 
-/// Under another name beside it until it is whole.
+/// A file may be the user's in a folder that is not, and none takes the place of one that a
+/// container has mounted.
+bool can_only_be_overwritten(const std::system_error& error) {
+  const int reason = error.code().value();
+  return reason == EACCES || reason == EPERM || reason == EBUSY;
+}
+
+/// Under another name beside it until it is whole, where that can be.
 void write_beside(const fs::path& path, std::string_view bytes) {
   const fs::path unfinished = path.string() + ".unfinished";
   try {
     write(unfinished, bytes);
     fs::rename(unfinished, path);
-  } catch (const std::system_error&) {
+  } catch (const std::system_error& error) {
     std::error_code ignored;
     fs::remove(unfinished, ignored);
-    throw;
+    if (!can_only_be_overwritten(error)) throw;
+    write(path, bytes);
   }
 }
 

@@ -8,7 +8,8 @@
 namespace limbcast {
 
 /// Writes a file, or over the one that a link leads to: it is there whole or, where the program or
-/// the disk fails, as it was before. Pipes, terminals and other devices are written to. Throws
+/// the disk fails, as it was before, unless only the file itself may be written and nothing beside
+/// it. Pipes, terminals and other devices are written to. Throws
 /// std::runtime_error, with the reason, where it cannot be written.
 void write_whole_file(const std::string& path, std::string_view bytes);
 void write_whole_file(const std::string& path, const std::vector<std::uint8_t>& bytes);

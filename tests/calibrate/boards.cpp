@@ -133,8 +133,9 @@ std::vector<BoardPose> thorough_poses(const Board& board) {
     for (int i = 0; i < 9; ++i) {
       const double tilt = i % 4 < 2 ? kTilt_rad : -kTilt_rad;
       const cv::Vec3d rotation = i % 2 == 0 ? cv::Vec3d(tilt, 0.0, 0.0) : cv::Vec3d(0.0, tilt, 0.0);
-      const double x_m = z_m * 0.36 * (i % 3 - 1) + 0.06;
-      const double y_m = z_m * 0.3 * (i / 3 - 1);
+      const int column = i % 3 - 1, row = i / 3 - 1;
+      const double x_m = z_m * 0.36 * column + 0.06;
+      const double y_m = z_m * 0.3 * row;
       poses.push_back(pose_about_middle(board, rotation, {x_m, y_m, z_m}));
     }
   }

@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "common/config/options.hpp"
+#include "tests/support/rights.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::config {
@@ -53,18 +53,12 @@ TEST(OutputFile, IsRefusedWhereItIsRead) {
   EXPECT_NO_THROW(check_output_file("--json", folder / "new.log", {in}));
 }
 
-/// The administrator may write everywhere, so that those who test as such ask as somebody else.
-void give_up_rights() {
-  constexpr uid_t kNobody = 65534;
-  if (geteuid() == 0 && setuid(kNobody) != 0) std::abort();
-}
-
 TEST(OutputFile, IsRefusedWhereTheUserMayNotWrite) {
   const TemporaryFolder folder;
   constexpr auto kToLookAt = static_cast<std::filesystem::perms>(0555);
   std::filesystem::permissions(folder.path(), kToLookAt);
   const auto tell = [&] {
-    give_up_rights();
+    test::give_up_rights();
     std::fputs(refusal_of(folder / "a.yml").c_str(), stderr);
     std::exit(0);
   };

@@ -1,8 +1,10 @@
 #include "common/whole_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -12,6 +14,7 @@
 #include <iterator>
 #include <string>
 
+#include "tests/support/rights.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
@@ -36,6 +39,18 @@ TEST(WholeFile, TakesThePlaceOfTheOneBefore) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
+TEST(WholeFile, GoesToWhatTheShellHasOpened) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("out.txt", "");
+  const int shells = open(path.c_str(), O_WRONLY);  // NOLINT(*-vararg)
+  write_whole_file("/dev/fd/" + std::to_string(shells), std::string("from the program, "));
+  lseek(shells, 0, SEEK_END);
+  const std::string_view later = "from the shell";
+  EXPECT_EQ(write(shells, later.data(), later.size()), static_cast<ssize_t>(later.size()));
+  close(shells);
+  EXPECT_EQ(text_of(path), "from the program, from the shell");
+}
+
 /// As on a disk that is full after so many bytes.
 void let_files_grow_to(rlim_t bytes) {
   const rlimit limit{bytes, bytes};
@@ -55,6 +70,21 @@ TEST(WholeFile, IsAsItWasWhereTheDiskIsFull) {
               ::testing::HasSubstr("report.txt: cannot be written (File too large)"));
   EXPECT_EQ(text_of(path), "before");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(WholeFile, IsWrittenInAFolderThatIsNot) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("report.txt", "before");
+  std::filesystem::permissions(path, static_cast<std::filesystem::perms>(0666));
+  std::filesystem::permissions(folder.path(), static_cast<std::filesystem::perms>(0555));
+  const auto overwrite = [&] {
+    test::give_up_rights();
+    write_whole_file(path, std::string("after"));
+    std::exit(0);
+  };
+  EXPECT_EXIT(overwrite(), ::testing::ExitedWithCode(0), "");
+  EXPECT_EQ(text_of(path), "after");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
 TEST(WholeFile, IsNamedWithTheReasonWhereItCannotBeWritten) {
