@@ -18,6 +18,8 @@ constexpr Real kClearanceLimitSigmas = 10.0;
 constexpr float kSeenThroughM = 0.45F;
 /// The skin stands this share of the radius before the axis.
 constexpr Real kDepthShare = 0.8;
+/// A part costs nothing where it stands less than this before the measured surface [sigmas]. Tuned.
+constexpr Real kDepthSlackSigmas = 0.568;
 constexpr Real kDepthSigmaM = 0.02;
 constexpr Real kDepthLimitSigmas = 6.0;
 
@@ -100,7 +102,7 @@ void add_free_space_term(const Cones& cones, const Observation& observation, uns
       const Real surface = inside ? observation.surface_m[observation.at(u, v)] : 0.0;
       if (surface <= 0.0) continue;
       const Real sigma = kDepthSigmaM + observation.noise.sigma_m(static_cast<float>(surface));
-      const Real before = surface - (center.z() - kDepthShare * radius) - 0.5 * sigma;
+      const Real before = surface - (center.z() - kDepthShare * radius) - kDepthSlackSigmas * sigma;
       if (before > 0.0) add(sample, before, {1.0, sigma, kDepthLimitSigmas}, {0.0, 0.0, -1.0});
     }
   }

@@ -24,14 +24,14 @@ struct RefinedParams {
   int min_points = 40;
   /// Weight of a point against the priors, for each square of 3 cm that it stands for: neighbours
   /// in depth images share their errors, those of a scanner do less. Tuned.
-  double point_weight = 0.45, scan_point_weight = 0.6;
+  double point_weight = 0.375, scan_point_weight = 0.63;
   /// Points farther than this from the head's start are not the person's [m]: arm span of a tall
   /// man.
   double reach_m = 2.0;
 
   /// Spread of the surface about the round cones: clothes, hair, muscles [m]. Measured: 8 to 16 mm
   /// on true depth; the search uses more to widen the basin.
-  double surface_sigma_m = 0.02;
+  double surface_sigma_m = 0.0215;
   double search_surface_sigma_m = 0.05;
   double arm_search_surface_sigma_m = 0.03;
   /// Residuals beyond this many sigmas stop counting (Geman-McClure). Tuned.
@@ -39,28 +39,29 @@ struct RefinedParams {
   /// Cost of a body part outside of the person's silhouette, against the surface and against a part
   /// before the surface that was seen: silhouettes are cut wrongly more often than depths are
   /// measured so. Tuned.
-  double silhouette_weight = 0.5;
+  double silhouette_weight = 0.485;
   /// Joints against the rays on which the image's networks see them: spread across the ray [m] and
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
-  std::array<double, 3> image_sigma_m = {0.035, 0.025, 0.035};
-  std::array<double, 3> image_weight = {1.2, 2.5, 2.5};
+  std::array<double, 3> image_sigma_m = {0.0407, 0.025, 0.0331};
+  std::array<double, 3> image_weight = {1.23, 2.6, 2.65};
   double image_limit_sigmas = 4.0;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
   std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.75};
-  double image_depth_sigma_m = 0.05;
+  double image_depth_sigma_m = 0.049;
   /// A joint counts as this power of how sure its network is that it is in sight: the one that
   /// tells depths is mostly right about hidden joints too. Tuned on simulated people.
-  std::array<double, 3> image_visibility_exponent = {1.0, 1.0, 0.075};
-  /// Instead it tells how far off each mark is: what is usual [m], the least that is believed [m],
-  /// and by what power of their ratio a mark's spreads above follow. Tuned on simulated people.
+  std::array<double, 3> image_visibility_exponent = {1.0, 1.0, 0.115};
+  /// The network of depths tells how far off each mark is: what is usual [m], the least that is
+  /// believed [m], and the power of their ratio by which a mark's spreads above grow. Tuned on
+  /// simulated people.
   double usual_mark_spread_m = 0.02, least_mark_spread_m = 0.0065;
-  double mark_spread_exponent = 0.85;
+  double mark_spread_exponent = 0.853;
   /// A joint that it takes for hidden, and that a network of colours sees farther from there than
   /// this [m], counts less by up to this share. Tuned on simulated people.
   double image_elsewhere_m = 0.15;
-  double image_elsewhere_doubt = 0.7;
+  double image_elsewhere_doubt = 0.754;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;
