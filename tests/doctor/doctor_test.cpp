@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <limbcast/module_status_t.hpp>
 #include <limbcast/mounting_t.hpp>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,14 @@ TEST(Doctor, NamesMissingModulesAndForeignTypesThatItHears) {
   const std::string url = test::private_lcm_url();
   test::ChildProcess segmenter({test::program("limbcast-segmenter"), "--lcm-url", url},
                                test::temporary_folder("doctor") + "/segmenter.txt");
+  lcm_io::Bus listener(url);
+  bool is_up = false;
+  listener.subscribe<module_status_t>("MODULE_STATUS", lcm_io::Keep::kAll,
+                                      [&](const module_status_t&) { is_up = true; });
+  while (!is_up) {
+    listener.handle(std::chrono::milliseconds(200));
+    ASSERT_TRUE(segmenter.running()) << segmenter.output();
+  }
   std::atomic<bool> examined{false};
   std::thread foreigner([&] {
     lcm_io::Bus bus(url);

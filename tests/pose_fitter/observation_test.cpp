@@ -52,6 +52,7 @@ class WristSeenInDepths : public ::testing::Test {
   void take_for_hidden() { mark(ImageNetwork::kDepthPose).visibility = kHidden; }
 
   static constexpr float kHidden = 0.01F;
+  static constexpr Real kHalf = 0.5;
   const BodyState body_ = testing::standing_body(2.5, 0.0);
   Segment segment_ = testing::colored(testing::seen(body_));
   RefinedParams params_;
@@ -60,7 +61,7 @@ class WristSeenInDepths : public ::testing::Test {
 TEST_F(WristSeenInDepths, CountsWhereItIsHiddenTooAsNoOtherDoes) {
   take_for_hidden();
   mark(ImageNetwork::kMoveNet).visibility = kHidden;
-  EXPECT_GT(counted(ImageNetwork::kDepthPose).visibility, 0.6);
+  EXPECT_GT(counted(ImageNetwork::kDepthPose).visibility, kHalf);
   EXPECT_NEAR(counted(ImageNetwork::kMoveNet).visibility, kHidden, 1e-6);
 }
 
@@ -69,9 +70,9 @@ TEST_F(WristSeenInDepths, CountsLessWhereItIsHiddenAndColorsShowItElsewhere) {
   mark(ImageNetwork::kMoveNet).px.x() += static_cast<float>(side_px);
   EXPECT_NEAR(counted(ImageNetwork::kDepthPose).visibility, 1.0, 1e-6);
   take_for_hidden();
-  EXPECT_LT(counted(ImageNetwork::kDepthPose).visibility, 0.4);
+  EXPECT_LT(counted(ImageNetwork::kDepthPose).visibility, kHalf);
   mark(ImageNetwork::kMoveNet).px.x() -= static_cast<float>(side_px);
-  EXPECT_GT(counted(ImageNetwork::kDepthPose).visibility, 0.6);
+  EXPECT_GT(counted(ImageNetwork::kDepthPose).visibility, kHalf);
 }
 
 TEST_F(WristSeenInDepths, IsAsUnsureAsTheNetworkTells) {
