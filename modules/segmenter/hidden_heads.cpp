@@ -47,33 +47,6 @@ std::vector<std::vector<std::uint32_t>> points_of_surfaces(const Surfaces& surfa
   return kept;
 }
 
-/// The head of a body whose top is in sight, at the surface's point nearest to the top's middle.
-HeadCandidate head_on_top(const Lattice& lattice, const Extent& extent,
-                          const WholeBodyParams& params) {
-  Eigen::Vector3f middle_m = Eigen::Vector3f::Zero();
-  int points = 0;
-  for (const std::uint32_t i : extent.points) {
-    if (lattice.level_m[i].z() < extent.top_m - params.head_height_m) continue;
-    middle_m += lattice.level_m[i];
-    ++points;
-  }
-  middle_m /= static_cast<float>(points);
-  const std::uint32_t at = *std::min_element(
-      extent.points.begin(), extent.points.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return (lattice.level_m[a] - middle_m).squaredNorm() <
-               (lattice.level_m[b] - middle_m).squaredNorm();
-      });
-  HeadCandidate head;
-  head.u = static_cast<int>(at) % lattice.width;
-  head.v = static_cast<int>(at) / lattice.width;
-  head.surface_m = lattice.level_m[at];
-  const Eigen::Vector2f away = head.surface_m.head<2>().normalized();
-  head.center_m = head.surface_m;
-  head.center_m.head<2>() += params.head_depth_m * away;
-  head.kind = SeedKind::kBody;
-  return head;
-}
-
 /// What the sensor does not see: beyond the first and the last measured point of each row, since a
 /// stereo camera measures nothing at the edge that only one of its images shows, and behind people.
 class View {
@@ -255,21 +228,6 @@ std::vector<HeadlessSurface> find_body_parts(const Lattice& lattice, const Surfa
     parts.push_back(with_head(lattice, head_m, std::move(extent)));
   }
   return largest_first(std::move(parts));
-}
-
-std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Surfaces& surfaces,
-                                               const WholeBodyParams& params) {
-  if (!lattice.frame.ground_known) return {};
-  std::vector<HeadlessSurface> bodies;
-  for (std::vector<std::uint32_t>& points :
-       points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
-    const Extent extent = measure(lattice, std::move(points));
-    if (extent.top_m - extent.bottom_m < params.min_height_m || extent.top_m < params.min_top_m ||
-        extent.top_m > params.max_top_m)
-      continue;
-    bodies.push_back({head_on_top(lattice, extent, params), extent.points});
-  }
-  return bodies;
 }
 
 void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,

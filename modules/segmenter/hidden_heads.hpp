@@ -42,10 +42,6 @@ struct SeenBody {
 /// Nothing where the image does not tell.
 using BodyOpinion = std::function<std::optional<SeenBody>(const HeadlessSurface&)>;
 
-/// Surfaces that nobody has and that are as high and wide as a body, with the head on top of them.
-std::vector<HeadlessSurface> find_whole_bodies(const Lattice& lattice, const Surfaces& surfaces,
-                                               const WholeBodyParams& params);
-
 /// Adds those that are a body's to the people who were found, and the others to the rejected.
 /// Without an image's opinion the head must be out of sight: else it would have been found.
 void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,

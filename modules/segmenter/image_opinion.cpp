@@ -25,18 +25,6 @@ Eigen::Vector3f marked_head(const ImagePose& pose, const PinholeCamera& camera, 
   return camera.back_project(seen->px.x(), seen->px.y(), depth_m);
 }
 
-/// The camera's own image; of a scan one that shows the place.
-RangeImage view_towards(const Scene& scene, const Eigen::Vector3f& place_m) {
-  RangeImage view;
-  if (scene.cloud.organized()) {
-    view.camera = *scene.cloud.camera;
-  } else {
-    view.frame_from_image = upright_view(place_m, scene.lattice.frame.down());
-    view.camera.fx = view.camera.fy = 1.0;
-  }
-  return view;
-}
-
 }  // namespace
 
 ImageOpinion::ImageOpinion(const Params& params)
@@ -66,27 +54,6 @@ BodyOpinion ImageOpinion::body_opinion(const Scene& scene, const FoundPeople& pe
     }
     return see_body(scene, labels, surface.head);
   };
-}
-
-std::optional<Eigen::Vector3f> ImageOpinion::head_of_body(const Scene& scene,
-                                                          const HeadlessSurface& body) const {
-  constexpr std::int16_t kThis = 0;
-  std::vector<std::int16_t> labels(scene.lattice.size(), kNobody);
-  for (const std::uint32_t i : body.points) labels[i] = kThis;
-  labels = labels_of_cloud(scene, labels, params_.joint);
-  const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(body.head.center_m);
-  const RangeImage view = view_towards(scene, head_m);
-  const auto pose = look(scene, {labels, kThis, head_m}, view);
-  if (!pose) return std::nullopt;
-  const float depth_m = view.frame_from_image.col(2).dot(head_m);
-  const Eigen::Vector3f marked_m = view.frame_from_image * marked_head(*pose, view.camera, depth_m);
-  const WholeBodyParams& params = params_.whole_bodies;
-  const float distance_m = (marked_m - head_m).norm();
-  const bool on_top = has_image(scene.cloud) && distance_m < params.on_top_m;
-  if (pose->person_score < (on_top ? params.min_score_on_top : params.min_score) ||
-      distance_m > params.max_head_distance_m)
-    return std::nullopt;
-  return marked_m;
 }
 
 std::vector<ImagePose> ImageOpinion::see(const Scene& scene, const LabelledPerson& person) const {
@@ -128,13 +95,6 @@ std::optional<SeenBody> ImageOpinion::see_body(const Scene& scene,
   seen.score_odds = log_odds(pose->person_score);
   for (const ImageJoint& joint : pose->joints) seen.visible_joints += joint.visibility;
   return seen;
-}
-
-std::optional<ImagePose> ImageOpinion::look(const Scene& scene, const LabelledPerson& person,
-                                            const RangeImage& view) const {
-  const Eigen::Vector3f down = scene.lattice.frame.down();
-  return has_image(scene.cloud) ? network_.look(scene.cloud, person, down)
-                                : network_.look_at_surface(scene.cloud, person, down, view);
 }
 
 }  // namespace limbcast::segmenter

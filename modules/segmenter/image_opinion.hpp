@@ -14,9 +14,9 @@
 
 namespace limbcast::segmenter {
 
-/// What the networks of poses see in a scene's image, or in its surface drawn as one: whether there
-/// is somebody where the depths leave it open, and the joints of those who were found. Several
-/// threads may use one object.
+/// What the networks of poses see in a scene's colour image: whether there is somebody where the
+/// depths leave it open, and the joints of those who were found. Several threads may use one
+/// object.
 class ImageOpinion {
  public:
   explicit ImageOpinion(const Params& params);
@@ -27,10 +27,6 @@ class ImageOpinion {
   /// What the colour image shows where a surface may be a body's whom none of `people` is; it looks
   /// at `people` as they are when it is asked. Empty without an image.
   BodyOpinion body_opinion(const Scene& scene, const FoundPeople& people) const;
-  /// Where the head of a body that nobody has is marked (the cloud's frame); nothing where the body
-  /// is not taken for a person, or the mark is far from its top.
-  std::optional<Eigen::Vector3f> head_of_body(const Scene& scene,
-                                              const HeadlessSurface& body) const;
   /// What the networks see of a person in the colour image; nothing without one.
   std::vector<ImagePose> see(const Scene& scene, const LabelledPerson& person) const;
 
@@ -39,9 +35,6 @@ class ImageOpinion {
   /// The body beneath a head that is guessed. `labels`: whose each of the cloud's points is.
   std::optional<SeenBody> see_body(const Scene& scene, const std::vector<std::int16_t>& labels,
                                    const HeadCandidate& head) const;
-  /// What the first network sees of a person.
-  std::optional<ImagePose> look(const Scene& scene, const LabelledPerson& person,
-                                const RangeImage& view) const;
 
   Params params_;
   PoseNetwork network_, second_network_;

@@ -33,26 +33,6 @@ struct FaceParams {
   float side_log_odds_per_m = 30.0F, most_side_log_odds = 1.8F;
 };
 
-/// How the surface of somebody without colours is drawn for the network of poses
-/// (shaded_surface.hpp). Chosen on simulated scans (tests/accuracy/README.md), by the share of
-/// visible joints that the network sees within 10 cm: 82 % of a dense scanner's, 73 % of 64 rings.
-struct ShadedSurfaceParams {
-  /// Points farther apart than this many times the usual have a hole between them.
-  float max_gap_spacings = 2.0F;
-  /// A step of more than this in depth is the rim of a limb [m]; with 0.2 and 0.4 arms before the
-  /// trunk melt into it.
-  float max_jump_m = 0.1F;
-  /// Depths are averaged with this standard deviation at least [px], and half the usual distance of
-  /// two points: noise looks like folds.
-  float min_smoothing_px = 1.5F;
-  /// Where the light comes from: right, down, away. Upper sides are light.
-  std::array<float, 3> to_lamp = {-0.3F, -0.6F, -1.0F};
-  /// Share of the light that comes from everywhere.
-  float ambient = 0.15F;
-  /// Colours of a lit surface, skin-like, and of the wall [blue, green, red; 0 to 255].
-  std::array<std::uint8_t, 3> surface = {150, 170, 200}, wall = {200, 200, 200};
-};
-
 /// The network that sees joints in the colour image (pose_network.hpp). Chosen on bodies D1 to D3
 /// of stereo_dev/pointing and general with true heads, every second frame: 98 % of the visible
 /// joints are within 10 cm across the ray; with the square around the true hips 95 %.
@@ -74,7 +54,6 @@ struct PoseNetworkParams {
   /// Limits of what the score and the distance tell: log odds, and [m].
   float max_score_odds = 4.0F, max_distance_m = 0.4F;
   /// What the network sees of a cloud without colours.
-  ShadedSurfaceParams surface;
 };
 
 /// The square of the second network (move_net.hpp). Of the visible joints of stereo_dev/multi it

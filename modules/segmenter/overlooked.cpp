@@ -12,6 +12,12 @@ bool is_near(const HeadCandidate& head, const std::vector<HeadCandidate>& others
   });
 }
 
+/// Filters that end heads beside walls, too: what grew from them went on there.
+bool may_be_wrong(SegmentFilter filter) {
+  return filter == SegmentFilter::kNotHeadShaped || filter == SegmentFilter::kTooManyPoints ||
+         filter == SegmentFilter::kSeedNotHead;
+}
+
 }  // namespace
 
 std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPeople& people,
@@ -19,7 +25,7 @@ std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPe
   std::vector<HeadCandidate> refused;
   for (const RejectedHead& rejected : people.rejected) {
     const HeadCandidate& head = rejected.head;
-    if (rejected.rejection.filter == SegmentFilter::kNotHeadShaped && !head.told_by_body &&
+    if (may_be_wrong(rejected.rejection.filter) && !head.told_by_body &&
         head.odds >= params.min_head_odds && head.score >= params.min_template_score &&
         people.labels[lattice.index(head.u, head.v)] == kNobody &&
         !is_near(head, people.heads, params.min_distance_m))

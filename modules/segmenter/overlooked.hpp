@@ -9,8 +9,8 @@
 
 namespace limbcast::segmenter {
 
-/// Candidates that were refused for the depths around them and may be heads all the same, the
-/// likeliest first: apart from the people who were found, on surfaces that nobody has.
+/// Candidates that were refused by the depths around them or by what grew, and may be heads all the
+/// same, the likeliest first: apart from the people who were found, on surfaces that nobody has.
 std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPeople& people,
                                            const OverlookedParams& params);
 

@@ -8,7 +8,6 @@
 #include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/move_net.hpp"
 #include "modules/segmenter/range_image.hpp"
-#include "modules/segmenter/shaded_surface.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -47,17 +46,6 @@ cv::Mat3b paint_others_over(const Cloud& cloud, const LabelledPerson& person,
   return image;
 }
 
-/// The person's points, and those that may be the person's, in a picture's frame.
-std::vector<Eigen::Vector3f> points_of(const Cloud& cloud, const LabelledPerson& person,
-                                       const Eigen::Matrix3f& frame_from_picture) {
-  std::vector<Eigen::Vector3f> points_m;
-  for (std::size_t i = 0; i < person.labels.size(); ++i) {
-    if (person.labels[i] == person.label || person.labels[i] == kUnsure)
-      points_m.push_back(frame_from_picture.transpose() * cloud.points_m[i]);
-  }
-  return points_m;
-}
-
 }  // namespace
 
 PoseNetwork::PoseNetwork(const PoseNetworkParams& params, PictureNetworkKind kind)
@@ -86,30 +74,6 @@ std::optional<ImagePose> PoseNetwork::look(const Cloud& cloud, const LabelledPer
   ImagePose pose = networks_->with([&](PictureNetwork& network) { return network.see(input); });
   const Eigen::Affine2f image_from_input = image_from_patch(*square, kPictureSide_px);
   for (ImageJoint& joint : pose.joints) joint.px = image_from_input * joint.px;
-  return pose;
-}
-
-std::optional<ImagePose> PoseNetwork::look_at_surface(const Cloud& cloud,
-                                                      const LabelledPerson& person,
-                                                      const Eigen::Vector3f& down,
-                                                      const RangeImage& view) const {
-  if (!networks_) return std::nullopt;
-  const Eigen::Vector3f middle_m = person.head_m + params_.middle_below_head_m * down;
-  const Eigen::Matrix3f frame_from_picture = upright_view(middle_m, down);
-  const std::optional<PinholeCamera> camera =
-      camera_towards(frame_from_picture.transpose() * middle_m, params_.side_m, kPictureSide_px);
-  if (!camera) return std::nullopt;
-  const cv::Mat3b picture =
-      draw_shaded(points_of(cloud, person, frame_from_picture), *camera, params_.surface);
-  ImagePose pose = networks_->with([&](PictureNetwork& network) { return network.see(picture); });
-  const Eigen::Matrix3f view_from_picture = view.frame_from_image.transpose() * frame_from_picture;
-  for (ImageJoint& joint : pose.joints) {
-    const Eigen::Vector3f ray =
-        view_from_picture * camera->back_project(joint.px.x(), joint.px.y(), 1.0F);
-    // Beside the camera there is no pixel.
-    if (!(ray.z() > 0.0F)) return std::nullopt;
-    joint.px = image_px(view, ray);
-  }
   return pose;
 }
 

@@ -27,13 +27,6 @@ class PoseNetwork {
   std::optional<ImagePose> look(const Cloud& cloud, const LabelledPerson& person,
                                 const Eigen::Vector3f& down) const;
 
-  /// In a picture of the person's surface (shaded_surface.hpp), for clouds without colour or
-  /// camera. The joints' pixels are those of the image that `view` is a part of. The network takes
-  /// front for back as often as not, since nothing has a face.
-  std::optional<ImagePose> look_at_surface(const Cloud& cloud, const LabelledPerson& person,
-                                           const Eigen::Vector3f& down,
-                                           const RangeImage& view) const;
-
  private:
   std::optional<UprightSquare> square_around(const PinholeCamera& camera,
                                              const Eigen::Vector3f& head_m,

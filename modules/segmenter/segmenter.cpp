@@ -159,11 +159,22 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
     find();
   };
   find();
-  find_with(find_whole_people(scene, surfaces));
   find_with(find_overlooked_people(scene, people));
-  if (scene.cloud.organized())
-    add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, people,
-                        image_.body_opinion(scene, people));
+  const auto add_headless = [&](FoundPeople& found) {
+    if (scene.cloud.organized())
+      add_headless_people(scene.lattice, surfaces, surfaces_, params_.hidden_heads, found,
+                          image_.body_opinion(scene, found));
+  };
+  FoundPeople with_headless = people;
+  add_headless(with_headless);
+  // What is left may be somebody's whose head is in sight: then all grow anew.
+  const std::vector<HeadCandidate> bodies = find_overlooked_bodies(scene, surfaces, with_headless);
+  if (bodies.empty()) {
+    people = std::move(with_headless);
+  } else {
+    find_with(bodies);
+    add_headless(people);
+  }
   add_floating_arms(
       scene.lattice,
       has_image(scene.cloud) ? params_.floating_arms_beside_image : params_.floating_arms, people);
@@ -174,31 +185,6 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
     reject(rejected.rejection, result.segments.back());
   }
   return labels_of_cloud(scene, people.labels, params_.joint);
-}
-
-std::vector<HeadCandidate> Segmenter::find_whole_people(const Scene& scene,
-                                                        const Surfaces& surfaces) const {
-  std::vector<HeadCandidate> people;
-  for (HeadlessSurface& body : find_whole_bodies(scene.lattice, surfaces, params_.whole_bodies)) {
-    // Depths alone tell most furniture before a camera, in less time than the network.
-    if (scene.cloud.organized() &&
-        surfaces_.mean_odds(scene.lattice, body.points) < params_.whole_bodies.min_body_odds)
-      continue;
-    const auto head_m = image_.head_of_body(scene, body);
-    if (!head_m) continue;
-    // The top may be hidden; the network sees where the head is all the same.
-    body.head.center_m = scene.lattice.frame.to_level(*head_m);
-    body.head.surface_m = head_surface(scene.lattice, body.head.center_m);
-    // Growing starts around the pixel.
-    if (const auto seen = head_at(scene.lattice, body.head.center_m)) {
-      body.head.u = seen->u;
-      body.head.v = seen->v;
-    }
-    body.head.odds = params_.whole_bodies.head_odds;
-    body.head.told_by_body = true;
-    people.push_back(body.head);
-  }
-  return people;
 }
 
 std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
@@ -220,6 +206,72 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
                 refused.end());
   for (HeadCandidate& head : refused) head.odds = params_.overlooked.head_odds;
   return refused;
+}
+
+std::vector<HeadCandidate> Segmenter::find_overlooked_bodies(const Scene& scene,
+                                                             const Surfaces& surfaces,
+                                                             const FoundPeople& people) const {
+  if (!params_.depth_pose.enabled) return {};
+  const std::vector<HeadlessSurface> bodies = likeliest_bodies(scene, surfaces, people);
+  if (bodies.empty()) return {};
+  const auto label_of = [&](std::size_t k) {
+    return static_cast<std::int16_t>(people.heads.size() + k);
+  };
+  std::vector<std::int16_t> labels = people.labels;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    for (const std::uint32_t i : bodies[k].points) labels[i] = label_of(k);
+  }
+  labels = labels_of_cloud(scene, labels, params_.joint);
+  std::vector<std::optional<HeadCandidate>> heads(bodies.size());
+  tbb::parallel_for(std::size_t{0}, bodies.size(), [&](std::size_t k) {
+    const Eigen::Vector3f guess_m = scene.lattice.frame.to_sensor(bodies[k].head.center_m);
+    heads[k] = head_in_depths(scene, {labels, label_of(k), guess_m});
+  });
+  std::vector<HeadCandidate> seen;
+  for (const auto& head : heads) {
+    if (head) seen.push_back(*head);
+  }
+  return seen;
+}
+
+std::vector<HeadlessSurface> Segmenter::likeliest_bodies(const Scene& scene,
+                                                         const Surfaces& surfaces,
+                                                         const FoundPeople& people) const {
+  const HiddenHeadParams& params = params_.overlooked_bodies;
+  std::vector<HeadlessSurface> bodies;
+  for (HeadlessSurface& body : find_body_parts(scene.lattice, surfaces, people, params)) {
+    if (people.labels[body.points.front()] != kNobody) continue;
+    // Trained on cameras' clouds; of others the largest come first.
+    if (scene.cloud.organized()) body.head.odds = surfaces_.mean_odds(scene.lattice, body.points);
+    if (body.head.odds >= params.min_part_odds) bodies.push_back(std::move(body));
+  }
+  std::stable_sort(
+      bodies.begin(), bodies.end(),
+      [](const HeadlessSurface& a, const HeadlessSurface& b) { return a.head.odds > b.head.odds; });
+  bodies.resize(std::min(bodies.size(), static_cast<std::size_t>(params.max_asked)));
+  return bodies;
+}
+
+std::optional<HeadCandidate> Segmenter::head_in_depths(const Scene& scene,
+                                                       LabelledPerson body) const {
+  const OverlookedParams& params = params_.overlooked;
+  const float least = params.min_person_odds - params.guess_costs_odds;
+  auto picture = draw_depths(scene, body, params_.depth_pose.picture);
+  if (!picture || !depth_pose_.shows_person(*picture, least)) return std::nullopt;
+  // Once more with the head where it was seen.
+  body.head_m = depth_pose_.look(*picture)->places_m[index(Joint::kHead)];
+  picture = draw_depths(scene, body, params_.depth_pose.picture);
+  if (!picture) return std::nullopt;
+  const auto pose = depth_pose_.look(*picture);
+  if (log_odds(pose->person_score) < params.min_person_odds) return std::nullopt;
+  const Eigen::Vector3f center_m =
+      scene.lattice.frame.to_level(pose->places_m[index(Joint::kHead)]);
+  auto head = head_at(scene.lattice, center_m);
+  if (!head) return std::nullopt;
+  head->kind = SeedKind::kBody;
+  head->odds = params.head_odds;
+  head->told_by_body = true;
+  return head;
 }
 
 std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,

@@ -50,10 +50,6 @@ std::vector<HeadlessSurface> find(const Lattice& lattice, const FoundPeople& fou
 
 std::vector<HeadlessSurface> find(const Lattice& lattice) { return find(lattice, nobody(lattice)); }
 
-std::vector<HeadlessSurface> find_whole(const Lattice& lattice, const FoundPeople& found) {
-  return find_whole_bodies(lattice, surfaces_beside(lattice, found), {});
-}
-
 /// Half a body at the right edge of the image.
 Lattice body_at_edge() {
   return look_into_room(
@@ -107,48 +103,6 @@ TEST(HiddenHeads, AreNotGuessedOnThePlaceOfAnotherPerson) {
   found.heads[0].center_m.z() -= 0.3F;
   found.person_odds.push_back(5.0F);
   EXPECT_TRUE(find(lattice, found).empty());
-}
-
-/// A body in the middle whose crown and soles are so high over the sensor.
-Lattice body_in_sight(float crown_m, float sole_m = kSole_m) {
-  return look_into_room([crown_m, sole_m](float right_m, float up_m) {
-    return std::abs(right_m) < kTrunk_m && up_m < crown_m && up_m > sole_m ? kBody_m : 0.0F;
-  });
-}
-
-TEST(WholeBodies, HaveTheirHeadsOnTop) {
-  constexpr float kCrown_m = 0.5F;
-  const Lattice lattice = body_in_sight(kCrown_m);
-  const auto found = find_whole(lattice, nobody(lattice));
-  ASSERT_EQ(found.size(), 1U);
-  const HeadCandidate& head = found[0].head;
-  EXPECT_EQ(head.kind, SeedKind::kBody);
-  EXPECT_NEAR(head.center_m.x(), 0.0F, 0.05F);
-  EXPECT_NEAR(head.center_m.y(), kBody_m + WholeBodyParams{}.head_depth_m, 0.02F);
-  EXPECT_NEAR(head.center_m.z(), kSensorHeight_m + kCrown_m - 0.15F, 0.1F);
-  // Growing starts at the surface.
-  EXPECT_EQ(lattice.level_m[lattice.index(head.u, head.v)], head.surface_m);
-  EXPECT_FALSE(found[0].points.empty());
-}
-
-TEST(WholeBodies, AreAsHighAsPeople) {
-  // Each breaks one limit only: too low over the ground, too high, too short.
-  constexpr float kLow_m = -0.18F, kHigh_m = 1.2F, kCrown_m = 0.5F, kHangs_m = -0.3F;
-  for (const auto& [crown_m, sole_m] :
-       {std::pair{kLow_m, kSole_m}, {kHigh_m, kSole_m}, {kCrown_m, kHangs_m}}) {
-    const Lattice lattice = body_in_sight(crown_m, sole_m);
-    EXPECT_TRUE(find_whole(lattice, nobody(lattice)).empty()) << crown_m << " to " << sole_m;
-  }
-}
-
-TEST(WholeBodies, NeedTheGroundAndPointsThatNobodyHas) {
-  Lattice lattice = body_in_sight(0.5F);
-  FoundPeople found = nobody(lattice);
-  const HeadlessSurface body = find_whole(lattice, found).at(0);
-  for (const std::uint32_t i : body.points) found.labels[i] = 0;
-  EXPECT_TRUE(find_whole(lattice, found).empty());
-  lattice.frame.ground_known = false;
-  EXPECT_TRUE(find_whole(lattice, nobody(lattice)).empty());
 }
 
 TEST(HiddenHeads, NeedTheGround) {
@@ -208,7 +162,12 @@ FoundPeople find_in_image(const Lattice& lattice, const BodyOpinion& opinion,
 }
 
 /// Half of a body, whose head would be in sight.
-Lattice part_in_sight() { return body_in_sight(kShoulder_m, -0.3F); }
+Lattice part_in_sight() {
+  return look_into_room([](float right_m, float up_m) {
+    constexpr float kHangs_m = -0.3F;
+    return std::abs(right_m) < kTrunk_m && up_m < kShoulder_m && up_m > kHangs_m ? kBody_m : 0.0F;
+  });
+}
 
 TEST(HeadlessPeople, AreThoseWhomTheImageShowsWhetherTheirHeadIsInSightOrNot) {
   const Eigen::Vector3f head_m(0.1F, kBody_m + 0.05F, 1.65F);

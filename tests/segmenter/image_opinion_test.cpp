@@ -59,26 +59,6 @@ TEST_F(OpinionOfTheDemo, IsOfPeopleAsTheyAreWhenItIsAsked) {
   EXPECT_EQ(opinion(person_)->score_odds, free_odds);
 }
 
-TEST_F(OpinionOfTheDemo, FindsTheHeadOfABodyAndNoneInFreeSpace) {
-  constexpr float kNear_m = 0.10F;
-  const auto found_m = image_.head_of_body(scene_, person_);
-  ASSERT_TRUE(found_m);
-  EXPECT_LT((*found_m - head_m_).norm(), kNear_m);
-  EXPECT_FALSE(image_.head_of_body(scene_, surface_under({0.5F, -0.5F, 6.0F})));
-}
-
-TEST_F(OpinionOfTheDemo, TakesALowerScoreForABodyWhoseHeadIsOnItsVeryTop) {
-  Params params;
-  params.whole_bodies.min_score = 1.1F;  // out of reach
-  const ImageOpinion image(params);
-  EXPECT_TRUE(image.head_of_body(scene_, person_));
-  const Eigen::Vector3f beside_m = head_m_ + Eigen::Vector3f(0.2F, 0.0F, 0.0F);
-  EXPECT_FALSE(image.head_of_body(scene_, surface_under(beside_m)));
-  EXPECT_TRUE(image_.head_of_body(scene_, surface_under(beside_m)));
-  params.whole_bodies.min_score_on_top = 1.1F;
-  EXPECT_FALSE(ImageOpinion(params).head_of_body(scene_, person_));
-}
-
 TEST_F(OpinionOfTheDemo, IsNoneWithoutColors) {
   Cloud colorless = frame_.cloud;
   colorless.colors.clear();

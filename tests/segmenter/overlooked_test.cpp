@@ -71,11 +71,17 @@ TEST_F(RefusedHeads, AreAskedAboutOnceWhereTwoAreOneFigures) {
 }
 
 TEST_F(RefusedHeads, AreNotAskedAboutWhereNothingSpeaksForThem) {
-  refuse(as_likely(first_, -6.0F));
+  refuse(as_likely(first_, -6.5F));
   HeadCandidate shapeless = second_;
   shapeless.score = 1.0F;
   refuse(shapeless);
   EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreAskedAboutWhereTheirClusterWentOnIntoAWall) {
+  refuse(first_, SegmentFilter::kTooManyPoints);
+  refuse(second_, SegmentFilter::kSeedNotHead);
+  EXPECT_EQ(overlooked().size(), 2U);
 }
 
 TEST_F(RefusedHeads, AreNotAskedAboutWhereAnotherFilterEndedThem) {
@@ -90,9 +96,11 @@ class HeadsThatLookLikeNone : public ::testing::TestWithParam<std::uint64_t> {
     Params params;
     params.classifier.min_head_odds = 100.0F;
     params.overlooked.min_head_odds = -100.0F;
+    // Of all candidates only the likeliest: the limit of their log odds, too, keeps the others out.
+    params.overlooked.max_asked = 3;
     params.overlooked.head_odds = 101.0F;
     // The other ways to people whose heads are not told.
-    params.whole_bodies.min_score = params.whole_bodies.min_score_on_top = 2.0F;
+    params.overlooked_bodies.max_asked = 0;
     params.hidden_heads.min_body_odds = 100.0F;
     return params;
   }
@@ -114,10 +122,20 @@ TEST_P(HeadsThatLookLikeNone, AreToldByTheWholeBodyInDepths) {
   EXPECT_EQ(count_people(scene, GetParam(), nobody_asked), 0U);
 }
 
+TEST_P(HeadsThatLookLikeNone, AreToldByASurfaceThatNobodyHas) {
+  const auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  Params no_heads_asked = strict();
+  no_heads_asked.overlooked.max_asked = 0;
+  no_heads_asked.overlooked_bodies = kOverlookedBodies;
+  EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 1U);
+}
+
 TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
   simulate::SimulatorParams room = person_in_sight(simulate::SensorKind::kDepth, "hang");
   room.scenario.set = simulate::SetKind::kNoHuman;
-  EXPECT_EQ(count_people(room, GetParam(), strict()), 0U);
+  Params all_asked = strict();
+  all_asked.overlooked_bodies = kOverlookedBodies;
+  EXPECT_EQ(count_people(room, GetParam(), all_asked), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
