@@ -33,18 +33,9 @@ Extent measure(const Lattice& lattice, std::vector<std::uint32_t> points) {
   return extent;
 }
 
-/// The points of each surface that is as large as this.
-std::vector<std::vector<std::uint32_t>> points_of_surfaces(const Surfaces& surfaces,
-                                                           float min_area_m2, float max_area_m2,
-                                                           float max_extent_m) {
-  std::vector<std::vector<std::uint32_t>> points = points_by_surface(surfaces), kept;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Surface& surface = surfaces.all[k];
-    if (surface.area_m2 >= min_area_m2 && surface.area_m2 <= max_area_m2 &&
-        surface.extent_m <= max_extent_m)
-      kept.push_back(std::move(points[k]));
-  }
-  return kept;
+bool has_size_of_body(const Surface& surface, const HiddenHeadParams& params) {
+  return surface.area_m2 >= params.min_area_m2 && surface.area_m2 <= params.max_area_m2 &&
+         surface.extent_m <= params.max_extent_m;
 }
 
 /// What the sensor does not see: beyond the first and the last measured point of each row, since a
@@ -153,9 +144,10 @@ std::vector<Extent> free_extents(const Lattice& lattice, const Surfaces& surface
                                  const FoundPeople& found, const HiddenHeadParams& params,
                                  float min_height_m) {
   std::vector<Extent> extents;
-  for (std::vector<std::uint32_t>& points :
-       points_of_surfaces(surfaces, params.min_area_m2, params.max_area_m2, params.max_extent_m)) {
-    Extent extent = measure(lattice, std::move(points));
+  std::vector<std::vector<std::uint32_t>> points = points_by_surface(surfaces);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!has_size_of_body(surfaces.all[k], params)) continue;
+    Extent extent = measure(lattice, std::move(points[k]));
     if (extent.top_m - extent.bottom_m >= min_height_m &&
         !near_a_head(found.heads, extent.mean_m, params.min_distance_m))
       extents.push_back(std::move(extent));

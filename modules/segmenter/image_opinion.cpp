@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "modules/segmenter/range_image.hpp"
 
 namespace limbcast::segmenter {
 namespace {

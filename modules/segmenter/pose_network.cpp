@@ -5,9 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "modules/segmenter/blaze_pose.hpp"
-#include "modules/segmenter/lattice.hpp"
 #include "modules/segmenter/move_net.hpp"
-#include "modules/segmenter/range_image.hpp"
 
 namespace limbcast::segmenter {
 namespace {
