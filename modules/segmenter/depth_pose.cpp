@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
@@ -165,15 +166,24 @@ DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
 }
 
 std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
+  return see_person(picture, -std::numeric_limits<float>::infinity());
+}
+
+std::optional<PoseInDepths> DepthPose::see_person(const DepthPicture& picture,
+                                                  float min_person_odds) const {
   if (!networks_) return std::nullopt;
-  const auto seen = networks_->with([&](TfliteNetwork& network) {
-    return read_figures(
-        figures_of_both(network, picture.channels, figures_of(network, picture.channels)));
+  const auto seen = networks_->with([&](TfliteNetwork& network) -> std::optional<SeenPerson> {
+    Figures figures = figures_of(network, picture.channels);
+    if (person_odds(figures) < min_person_odds - params_.mirror_adds_odds) return std::nullopt;
+    figures = figures_of_both(network, picture.channels, std::move(figures));
+    if (person_odds(figures) < min_person_odds) return std::nullopt;
+    return read_figures(figures);
   });
+  if (!seen) return std::nullopt;
   PoseInDepths pose;
-  pose.person_score = seen.score;
-  for (std::size_t i = 0; i < seen.joints.size(); ++i) {
-    const SeenInDepths& joint = seen.joints[i];
+  pose.person_score = seen->score;
+  for (std::size_t i = 0; i < seen->joints.size(); ++i) {
+    const SeenInDepths& joint = seen->joints[i];
     pose.places_m[i] = picture.frame_from_picture *
                        picture.camera.back_project(joint.px.x(), joint.px.y(),
                                                    picture.middle_m + joint.behind_middle_m);
@@ -181,16 +191,6 @@ std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
     pose.spreads_m[i] = spread_m(joint.presence_odds, params_);
   }
   return pose;
-}
-
-bool DepthPose::shows_person(const DepthPicture& picture, float min_person_odds) const {
-  if (!networks_) return false;
-  return networks_->with([&](TfliteNetwork& network) {
-    Figures figures = figures_of(network, picture.channels);
-    if (person_odds(figures) < min_person_odds - params_.mirror_adds_odds) return false;
-    figures = figures_of_both(network, picture.channels, std::move(figures));
-    return person_odds(figures) >= min_person_odds;
-  });
 }
 
 }  // namespace limbcast::segmenter

@@ -38,9 +38,9 @@ class DepthPose {
 
   /// Nothing where the network is switched off.
   std::optional<PoseInDepths> look(const DepthPicture& picture) const;
-  /// Whether the log odds of a person are at least so high, as look() tells them. For most things
-  /// one look of the network is enough.
-  bool shows_person(const DepthPicture& picture, float min_person_odds) const;
+  /// The same; nothing either where the log odds of a person are lower than that: for most things
+  /// one look of the network tells it, instead of two.
+  std::optional<PoseInDepths> see_person(const DepthPicture& picture, float min_person_odds) const;
 
  private:
   DepthPoseParams params_;

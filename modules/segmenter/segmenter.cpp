@@ -199,7 +199,7 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
                               scene.lattice.frame.to_sensor(head.center_m)};
     const auto picture = draw_depths(scene, body, params_.depth_pose.picture);
     head.told_by_body =
-        picture && depth_pose_.shows_person(*picture, params_.overlooked.min_person_odds);
+        picture && depth_pose_.see_person(*picture, params_.overlooked.min_person_odds).has_value();
   });
   refused.erase(std::remove_if(refused.begin(), refused.end(),
                                [](const HeadCandidate& head) { return !head.told_by_body; }),
@@ -255,15 +255,16 @@ std::vector<HeadlessSurface> Segmenter::likeliest_bodies(const Scene& scene,
 std::optional<HeadCandidate> Segmenter::head_in_depths(const Scene& scene,
                                                        LabelledPerson body) const {
   const OverlookedParams& params = params_.overlooked;
-  const float least = params.min_person_odds - params.guess_costs_odds;
-  auto picture = draw_depths(scene, body, params_.depth_pose.picture);
-  if (!picture || !depth_pose_.shows_person(*picture, least)) return std::nullopt;
+  const auto see = [&](float min_odds) -> std::optional<PoseInDepths> {
+    const auto picture = draw_depths(scene, body, params_.depth_pose.picture);
+    return picture ? depth_pose_.see_person(*picture, min_odds) : std::nullopt;
+  };
+  const auto first = see(params.min_person_odds - params.guess_costs_odds);
+  if (!first) return std::nullopt;
   // Once more with the head where it was seen.
-  body.head_m = depth_pose_.look(*picture)->places_m[index(Joint::kHead)];
-  picture = draw_depths(scene, body, params_.depth_pose.picture);
-  if (!picture) return std::nullopt;
-  const auto pose = depth_pose_.look(*picture);
-  if (log_odds(pose->person_score) < params.min_person_odds) return std::nullopt;
+  body.head_m = first->places_m[index(Joint::kHead)];
+  const auto pose = see(params.min_person_odds);
+  if (!pose) return std::nullopt;
   const Eigen::Vector3f center_m =
       scene.lattice.frame.to_level(pose->places_m[index(Joint::kHead)]);
   auto head = head_at(scene.lattice, center_m);

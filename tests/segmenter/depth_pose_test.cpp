@@ -258,7 +258,7 @@ TEST_F(DepthsOfTheDemo, ShowAPersonAndDoNotShowOneInAWall) {
 TEST_F(DepthsOfTheDemo, TellWhetherAPersonIsThereAsALookDoes) {
   const DepthPose network{DepthPoseParams{}};
   constexpr float kSure = 4.0F;
-  EXPECT_TRUE(network.shows_person(
+  EXPECT_TRUE(network.see_person(
       picture_of(cloud_, {labels_, kOwn, person_[Joint::kHead].position_m}), kSure));
   // To the network something else in the mirror.
   Wall wall_on_the_left;
@@ -267,7 +267,9 @@ TEST_F(DepthsOfTheDemo, TellWhetherAPersonIsThereAsALookDoes) {
     if (i % width > width / 2) wall_on_the_left.labels[i] = kNobody;
   }
   const DepthPicture picture = wall_on_the_left.picture();
-  const auto wall_is_over = [&](float odds) { return network.shows_person(picture, odds); };
+  const auto wall_is_over = [&](float odds) {
+    return network.see_person(picture, odds).has_value();
+  };
   EXPECT_FALSE(wall_is_over(kSure));
   const float odds = log_odds(network.look(picture)->person_score);
   constexpr float kRounding = 0.01F;
