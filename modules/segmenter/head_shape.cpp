@@ -15,6 +15,8 @@ namespace {
 /// From the surface to the head's centre [m]: half of the head's length (ISO 7250: 19 cm), less its
 /// curvature.
 constexpr float kHeadDepth_m = 0.085F;
+/// A point this near to a head's centre is on it [m]: half of its length and hair.
+constexpr float kNearHead_m = 0.15F;
 
 struct Offset {
   float right_m, up_m;
@@ -171,6 +173,23 @@ Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surfa
 
 Eigen::Vector3f head_surface(const Lattice& lattice, const Eigen::Vector3f& center_m) {
   return center_m - kHeadDepth_m * ray_to(lattice, center_m);
+}
+
+std::optional<HeadCandidate> head_near(const Lattice& lattice, const Eigen::Vector3f& center_m) {
+  float nearest_m = kNearHead_m * kNearHead_m;
+  std::optional<HeadCandidate> head;
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    if (lattice.depth_m[i] <= 0.0F) continue;
+    const float distance_m = (lattice.level_m[i] - center_m).squaredNorm();
+    if (distance_m >= nearest_m) continue;
+    nearest_m = distance_m;
+    head.emplace();
+    head->u = static_cast<int>(i) % lattice.width;
+    head->v = static_cast<int>(i) / lattice.width;
+    head->surface_m = lattice.level_m[i];
+    head->center_m = center_m;
+  }
+  return head;
 }
 
 Eigen::Vector3f from_head(const Lattice& lattice, const HeadCandidate& head,

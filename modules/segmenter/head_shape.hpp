@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "common/cloud/segment.hpp"
@@ -34,5 +35,9 @@ Eigen::Vector3f from_head(const Lattice& lattice, const HeadCandidate& head,
 /// Centre of the head whose surface is seen at `surface_m` (both level frame), and back.
 Eigen::Vector3f head_center(const Lattice& lattice, const Eigen::Vector3f& surface_m);
 Eigen::Vector3f head_surface(const Lattice& lattice, const Eigen::Vector3f& center_m);
+
+/// The head whose centre is told (level frame), at the point of the lattice nearest to it; nothing
+/// where none lies near.
+std::optional<HeadCandidate> head_near(const Lattice& lattice, const Eigen::Vector3f& center_m);
 
 }  // namespace limbcast::segmenter

@@ -1,6 +1,11 @@
 #include "modules/segmenter/overlooked.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+
+#include "modules/segmenter/depth_picture.hpp"
+#include "modules/segmenter/labelled_person.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -39,6 +44,25 @@ std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPe
     if (!is_near(head, kept, params.separation_m)) kept.push_back(head);
   }
   return kept;
+}
+
+std::vector<HeadCandidate> heads_of_people(const Scene& scene,
+                                           const std::vector<std::int16_t>& labels,
+                                           std::vector<HeadCandidate> heads, const Params& params,
+                                           const DepthPose& network) {
+  tbb::parallel_for(std::size_t{0}, heads.size(), [&](std::size_t k) {
+    HeadCandidate& head = heads[k];
+    const LabelledPerson body{labels, static_cast<std::int16_t>(k),
+                              scene.lattice.frame.to_sensor(head.center_m)};
+    const auto picture = draw_depths(scene, body, params.depth_pose.picture);
+    head.told_by_body =
+        picture && network.see_person(*picture, params.overlooked.min_person_odds).has_value();
+  });
+  heads.erase(std::remove_if(heads.begin(), heads.end(),
+                             [](const HeadCandidate& head) { return !head.told_by_body; }),
+              heads.end());
+  for (HeadCandidate& head : heads) head.odds = params.overlooked.head_odds;
+  return heads;
 }
 
 }  // namespace limbcast::segmenter

@@ -15,6 +15,7 @@
 #include "modules/segmenter/joint_growing.hpp"
 #include "modules/segmenter/lost_arms.hpp"
 #include "modules/segmenter/overlooked.hpp"
+#include "modules/segmenter/overlooked_bodies.hpp"
 #include "modules/segmenter/paper_search.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
@@ -32,26 +33,6 @@ Segment make_segment(const HeadCandidate& head, const LevelFrame& frame, float o
   segment.seed_kind = head.kind;
   segment.seed_score = probability(odds);
   return segment;
-}
-
-/// The head whose centre is told, at the pixel of the lattice nearest to it; nothing where none
-/// lies near.
-std::optional<HeadCandidate> head_at(const Lattice& lattice, const Eigen::Vector3f& center_m) {
-  constexpr float kNear_m = 0.15F;
-  float nearest_m = kNear_m * kNear_m;
-  std::optional<HeadCandidate> head;
-  for (std::size_t i = 0; i < lattice.size(); ++i) {
-    if (lattice.depth_m[i] <= 0.0F) continue;
-    const float distance_m = (lattice.level_m[i] - center_m).squaredNorm();
-    if (distance_m >= nearest_m) continue;
-    nearest_m = distance_m;
-    head.emplace();
-    head->u = static_cast<int>(i) % lattice.width;
-    head->v = static_cast<int>(i) / lattice.width;
-    head->surface_m = lattice.level_m[i];
-    head->center_m = center_m;
-  }
-  return head;
 }
 
 void reject(const Rejection& rejection, Segment& segment) {
@@ -90,7 +71,7 @@ Segments Segmenter::cut_out_people(const Cloud& cloud,
   const Scene scene = look_at(cloud, params_);
   std::vector<HeadCandidate> heads;
   for (const Eigen::Vector3f& head_m : heads_m) {
-    const auto head = head_at(scene.lattice, scene.lattice.frame.to_level(head_m));
+    const auto head = head_near(scene.lattice, scene.lattice.frame.to_level(head_m));
     if (!head) continue;
     heads.push_back(*head);
     result.segments.push_back(make_segment(*head, scene.lattice.frame, 0.0F));
@@ -168,7 +149,8 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
   FoundPeople with_headless = people;
   add_headless(with_headless);
   // What is left may be somebody's whose head is in sight: then all grow anew.
-  const std::vector<HeadCandidate> bodies = find_overlooked_bodies(scene, surfaces, with_headless);
+  const std::vector<HeadCandidate> bodies =
+      find_overlooked_bodies(scene, surfaces, with_headless, {params_, surfaces_, depth_pose_});
   if (bodies.empty()) {
     people = std::move(with_headless);
   } else {
@@ -193,86 +175,7 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
   std::vector<HeadCandidate> refused = find_overlooked(scene.lattice, people, params_.overlooked);
   if (refused.empty()) return {};
   const std::vector<std::int16_t> labels = grow_from(scene, refused, &people.labels);
-  tbb::parallel_for(std::size_t{0}, refused.size(), [&](std::size_t k) {
-    HeadCandidate& head = refused[k];
-    const LabelledPerson body{labels, static_cast<std::int16_t>(k),
-                              scene.lattice.frame.to_sensor(head.center_m)};
-    const auto picture = draw_depths(scene, body, params_.depth_pose.picture);
-    head.told_by_body =
-        picture && depth_pose_.see_person(*picture, params_.overlooked.min_person_odds).has_value();
-  });
-  refused.erase(std::remove_if(refused.begin(), refused.end(),
-                               [](const HeadCandidate& head) { return !head.told_by_body; }),
-                refused.end());
-  for (HeadCandidate& head : refused) head.odds = params_.overlooked.head_odds;
-  return refused;
-}
-
-std::vector<HeadCandidate> Segmenter::find_overlooked_bodies(const Scene& scene,
-                                                             const Surfaces& surfaces,
-                                                             const FoundPeople& people) const {
-  if (!params_.depth_pose.enabled) return {};
-  const std::vector<HeadlessSurface> bodies = likeliest_bodies(scene, surfaces, people);
-  if (bodies.empty()) return {};
-  const auto label_of = [&](std::size_t k) {
-    return static_cast<std::int16_t>(people.heads.size() + k);
-  };
-  std::vector<std::int16_t> labels = people.labels;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    for (const std::uint32_t i : bodies[k].points) labels[i] = label_of(k);
-  }
-  labels = labels_of_cloud(scene, labels, params_.joint);
-  std::vector<std::optional<HeadCandidate>> heads(bodies.size());
-  tbb::parallel_for(std::size_t{0}, bodies.size(), [&](std::size_t k) {
-    const Eigen::Vector3f guess_m = scene.lattice.frame.to_sensor(bodies[k].head.center_m);
-    heads[k] = head_in_depths(scene, {labels, label_of(k), guess_m});
-  });
-  std::vector<HeadCandidate> seen;
-  for (const auto& head : heads) {
-    if (head) seen.push_back(*head);
-  }
-  return seen;
-}
-
-std::vector<HeadlessSurface> Segmenter::likeliest_bodies(const Scene& scene,
-                                                         const Surfaces& surfaces,
-                                                         const FoundPeople& people) const {
-  const HiddenHeadParams& params = params_.overlooked_bodies;
-  std::vector<HeadlessSurface> bodies;
-  for (HeadlessSurface& body : find_body_parts(scene.lattice, surfaces, people, params)) {
-    if (people.labels[body.points.front()] != kNobody) continue;
-    // Trained on cameras' clouds; of others the largest come first.
-    if (scene.cloud.organized()) body.head.odds = surfaces_.mean_odds(scene.lattice, body.points);
-    if (body.head.odds >= params.min_part_odds) bodies.push_back(std::move(body));
-  }
-  std::stable_sort(
-      bodies.begin(), bodies.end(),
-      [](const HeadlessSurface& a, const HeadlessSurface& b) { return a.head.odds > b.head.odds; });
-  bodies.resize(std::min(bodies.size(), static_cast<std::size_t>(params.max_asked)));
-  return bodies;
-}
-
-std::optional<HeadCandidate> Segmenter::head_in_depths(const Scene& scene,
-                                                       LabelledPerson body) const {
-  const OverlookedParams& params = params_.overlooked;
-  const auto see = [&](float min_odds) -> std::optional<PoseInDepths> {
-    const auto picture = draw_depths(scene, body, params_.depth_pose.picture);
-    return picture ? depth_pose_.see_person(*picture, min_odds) : std::nullopt;
-  };
-  const auto first = see(params.min_person_odds - params.guess_costs_odds);
-  if (!first) return std::nullopt;
-  // Once more with the head where it was seen.
-  body.head_m = first->places_m[index(Joint::kHead)];
-  const auto pose = see(params.min_person_odds);
-  if (!pose) return std::nullopt;
-  const Eigen::Vector3f center_m =
-      scene.lattice.frame.to_level(pose->places_m[index(Joint::kHead)]);
-  auto head = head_at(scene.lattice, center_m);
-  if (!head) return std::nullopt;
-  head->kind = SeedKind::kBody;
-  head->odds = params.head_odds;
-  head->told_by_body = true;
-  return head;
+  return heads_of_people(scene, labels, std::move(refused), params_, depth_pose_);
 }
 
 std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,

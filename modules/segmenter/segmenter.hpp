@@ -15,7 +15,6 @@
 #include "modules/segmenter/scene.hpp"
 #include "modules/segmenter/skin_color.hpp"
 #include "modules/segmenter/surface_classifier.hpp"
-#include "modules/segmenter/surfaces.hpp"
 
 namespace limbcast::segmenter {
 
@@ -52,15 +51,6 @@ class Segmenter {
   /// Refused heads whose whole bodies the network of depths takes for people.
   std::vector<HeadCandidate> find_overlooked_people(const Scene& scene,
                                                     const FoundPeople& people) const;
-  /// Heads in sight of bodies that nobody has and that the network of depths takes for people.
-  std::vector<HeadCandidate> find_overlooked_bodies(const Scene& scene, const Surfaces& surfaces,
-                                                    const FoundPeople& people) const;
-  /// The surfaces that it is asked about, the likeliest first.
-  std::vector<HeadlessSurface> likeliest_bodies(const Scene& scene, const Surfaces& surfaces,
-                                                const FoundPeople& people) const;
-  /// Where it sees the head of a person in sight; nothing where it sees none. `body`'s own head is
-  /// a guess.
-  std::optional<HeadCandidate> head_in_depths(const Scene& scene, LabelledPerson body) const;
   /// The head of each of the cloud's points as all of them grow together, whether or not they are
   /// heads, and what is no part of a body is cut off. Points of the lattice that `taken` labels are
   /// left out.
