@@ -1,6 +1,7 @@
 #include "common/camera/recording.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -140,10 +141,6 @@ bool is_picture(const fs::path& path) {
   return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 /// A file or a link to one: a folder or a pipe may be called like a frame.
 bool is_file(const fs::path& path) {
   std::error_code ignored;
@@ -158,7 +155,7 @@ std::map<std::string, RecordedFrame> find_files(const fs::path& folder, const Fi
     const std::string stem = entry.path().stem().string();
     for (const bool is_first : {true, false}) {
       const std::string end = "_" + (is_first ? pair.first : pair.second);
-      if (!ends_with(stem, end)) continue;
+      if (stem.size() == end.size() || !boost::algorithm::ends_with(stem, end)) continue;
       RecordedFrame& frame = frames[stem.substr(0, stem.size() - end.size())];
       std::string& path = is_first ? frame.first_path : frame.second_path;
       if (!path.empty()) {

@@ -92,8 +92,9 @@ void LogReader::seek(std::int64_t position_bytes) {
   position_bytes_ = position_bytes;
 }
 
+// A pipe that nobody reads fails at once, where it would be waited for without O_NONBLOCK.
 FileLock::FileLock(const std::string& path)
-    : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)) {
+    : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666)) {
   if (descriptor_ < 0) refuse_to_write(path);
   // File systems without locks go without.
   if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;

@@ -1,6 +1,7 @@
 #include "modules/evaluate/truth_folder.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,16 +13,12 @@
 namespace limbcast::evaluate {
 namespace {
 
-bool ends_with(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() &&
-         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 std::vector<std::string> files_of(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> paths;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (ends_with(entry.path().string(), "_gt.json")) paths.push_back(entry.path().string());
+    if (boost::algorithm::ends_with(entry.path().string(), "_gt.json"))
+      paths.push_back(entry.path().string());
   }
   if (error) throw InputError(folder + ": cannot be read (" + error.message() + "); give a folder");
   if (paths.empty()) throw InputError(folder + ": holds no *_gt.json; give a folder with truth");

@@ -235,7 +235,16 @@ RawCloud read_kitti(const std::string& bytes, std::size_t max_points, const std:
                      "intensity as floats); copy it again or convert it to PCD");
   }
   check_num_points(table, max_points, path);
-  return points_of_rows(table, {bytes.begin(), bytes.end()}, path);
+  RawCloud cloud = points_of_rows(table, {bytes.begin(), bytes.end()}, path);
+  // Rows of another length put coordinates where the intensities are.
+  const bool are_rows = std::all_of(cloud.intensities.begin(), cloud.intensities.end(),
+                                    [](float intensity) { return intensity >= 0.0F; });
+  if (!are_rows) {
+    throw InputError(path +
+                     ": is not KITTI's, its fourth numbers are no intensities (some are negative); "
+                     "convert it to PCD or KITTI .bin");
+  }
+  return cloud;
 }
 
 bool starts_with(const std::string& text, const std::string& start) {

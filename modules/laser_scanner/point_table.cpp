@@ -74,6 +74,18 @@ void store_number(const Column& column, double value, std::vector<std::uint8_t>&
   }
 }
 
+/// One of a colour's channels, 0 to 255: as bytes, as whole numbers of 16 bits, or as shares of 1.
+std::uint8_t read_channel(const Place& place, const std::uint8_t* row) {
+  const Column& column = *place.column;
+  const float full = column.kind == NumberKind::kFloat ? 1.0F
+                     : column.size == 2                ? 65535.0F
+                                                       : 255.0F;
+  const float value = 255.0F * read_number(place, row) / full;
+  return std::isfinite(value)
+             ? static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)))
+             : std::uint8_t{0};
+}
+
 /// Colours are packed as 0xAARRGGBB in one number (PCD) or stand as red, green, blue (PLY).
 class ColorReader {
  public:
@@ -83,24 +95,23 @@ class ColorReader {
         green_(find(table, {"green"})),
         blue_(find(table, {"blue"})) {
     if (packed_ && packed_->column->size != 4) packed_.reset();
-    for (const auto& channel : {red_, green_, blue_}) {
-      if (!channel || channel->column->size != 1) has_channels_ = false;
-    }
   }
-  bool has_color() const { return packed_ || has_channels_; }
+  bool has_color() const { return packed_ || (red_ && green_ && blue_); }
   Bgr read(const std::uint8_t* row) const {
     if (packed_) return {row[packed_->offset], row[packed_->offset + 1], row[packed_->offset + 2]};
-    return {row[blue_->offset], row[green_->offset], row[red_->offset]};
+    return {read_channel(*blue_, row), read_channel(*green_, row), read_channel(*red_, row)};
   }
 
  private:
   std::optional<Place> packed_, red_, green_, blue_;
-  bool has_channels_ = true;
 };
 
-/// What a ring's column holds. Throws InputError where that is no number of a ring.
-std::uint16_t read_ring(const Place& place, const std::uint8_t* row, const std::string& where) {
+/// What a ring's column holds; nothing for a point without a ring, as clouds put together have
+/// them. Throws InputError where that is no number of a ring.
+std::optional<std::uint16_t> read_ring(const Place& place, const std::uint8_t* row,
+                                       const std::string& where) {
   const float ring = read_number(place, row);
+  if (std::isnan(ring)) return std::nullopt;
   const bool is_number =
       ring >= 0.0F && ring <= std::numeric_limits<std::uint16_t>::max() && std::floor(ring) == ring;
   if (!is_number) {
@@ -161,6 +172,7 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
       find(table, {"intensity", "Intensity", "scalar_Intensity", "reflectivity", "reflectance"});
   const auto ring = find(table, {"ring", "scalar_ring", "laser_id"});
   RawCloud cloud;
+  bool all_have_rings = ring.has_value();
   for (std::size_t i = 0; i < table.num_points; ++i) {
     const std::uint8_t* row = bytes.data() + i * table.row_bytes();
     const Eigen::Vector3f point{read_number(*x, row), read_number(*y, row), read_number(*z, row)};
@@ -171,8 +183,12 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
       const float value = read_number(*intensity, row);
       cloud.intensities.push_back(std::isfinite(value) ? value : 0.0F);
     }
-    if (ring) cloud.rings.push_back(read_ring(*ring, row, where));
+    if (!all_have_rings) continue;
+    const auto number = read_ring(*ring, row, where);
+    all_have_rings = number.has_value();
+    cloud.rings.push_back(number.value_or(0));
   }
+  if (!all_have_rings) cloud.rings.clear();
   return cloud;
 }
 

@@ -3,6 +3,7 @@
 // disturbed, with its calibration and truth, to OUT. Without arguments it lists the conditions. The
 // same images come out every time.
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -138,23 +139,18 @@ const std::vector<std::pair<std::string, Disturbance>>& conditions() {
   return kConditions;
 }
 
-bool ends_with(const std::string& name, const std::string& ending) {
-  return name.size() >= ending.size() &&
-         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 void disturb(const fs::path& folder, const fs::path& out, const Disturbance& disturbance) {
   fs::create_directories(out);
   const std::set<fs::path> files{fs::directory_iterator(folder), fs::directory_iterator()};
   cv::RNG random(1);
   for (const fs::path& file : files) {
     const std::string name = file.filename().string();
-    const bool is_right = ends_with(name, "_right.jpg");
-    if (is_right || ends_with(name, "_left.jpg")) {
+    const bool is_right = boost::algorithm::ends_with(name, "_right.jpg");
+    if (is_right || boost::algorithm::ends_with(name, "_left.jpg")) {
       const cv::Mat image = cv::imread(file.string());
       cv::imwrite((out / name).string(), disturbance(image, is_right, random),
                   {cv::IMWRITE_JPEG_QUALITY, 95});
-    } else if (!ends_with(name, ".png")) {  // depth and masks
+    } else if (!boost::algorithm::ends_with(name, ".png")) {  // depth and masks
       fs::copy_file(file, out / name, fs::copy_options::overwrite_existing);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -91,6 +92,9 @@ TEST_F(LogFile, SaysWhatIsWrongWithMissingEmptyAndForeignFiles) {
 
 TEST_F(LogFile, SaysThatAFileCannotBeWritten) {
   EXPECT_THROW(LogWriter("/nowhere/out.log"), config::UsageError);
+  const std::string pipe = folder_ / "pipe_that_nobody_reads";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(LogWriter{pipe}, config::UsageError);
 }
 
 TEST_F(LogFile, IsNotWrittenByTwo) {

@@ -104,7 +104,15 @@ TEST_F(CloudFile, WithRingsThatAreNoneIsNamed) {
   EXPECT_THAT(ring_error("-1"), HasSubstr("a.ply: its column 'ring' holds -1"));
   EXPECT_THAT(ring_error("65536"), HasSubstr("no number of a ring"));
   EXPECT_THAT(ring_error("2.5"), HasSubstr("no number of a ring"));
-  EXPECT_THAT(ring_error("nan"), HasSubstr("no number of a ring"));
+}
+
+TEST_F(CloudFile, KeepsNoRingsWhereAPointHasNone) {
+  const RawCloud cloud = read(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float scalar_ring\nend_header\n1 2 3 4\n5 6 7 nan\n8 9 1 2\n");
+  EXPECT_EQ(cloud.points.size(), 3U);
+  EXPECT_TRUE(cloud.rings.empty());
 }
 
 TEST_F(CloudFile, OfPlyIsReadWithColors) {
@@ -124,6 +132,23 @@ TEST_F(CloudFile, OfPlyIsReadWithColors) {
       read("b.ply", "ply\nformat binary_little_endian 1.0\n" + properties + rows);
   EXPECT_EQ(binary.points, two_points_);
   EXPECT_EQ(binary.colors[1].g, 2);
+}
+
+TEST_F(CloudFile, OfPlyIsReadWithColorsOfWhateverType) {
+  const auto first_color = [this](const std::string& type, const std::string& color) {
+    const std::string property = "property " + type + " ";
+    const RawCloud cloud =
+        read("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+             "property float z\n" +
+                 property + "red\n" + property + "green\n" + property + "blue\nend_header\n1 2 3 " +
+                 color + "\n");
+    const Bgr bgr = cloud.colors.at(0);
+    return std::vector<int>{bgr.r, bgr.g, bgr.b};
+  };
+  EXPECT_THAT(first_color("int", "10 20 300"), ElementsAre(10, 20, 255));
+  EXPECT_THAT(first_color("ushort", "65535 2570 0"), ElementsAre(255, 10, 0));
+  EXPECT_THAT(first_color("float", "1 0.2 nan"), ElementsAre(255, 51, 0));
 }
 
 TEST_F(CloudFile, LeavesOutWhatIsNotFinite) {
@@ -206,6 +231,10 @@ TEST_F(CloudFile, OfTextMustHaveAsManyNumbersInARowAsItsHeaderTells) {
 
 TEST_F(CloudFile, OfNuScenesIsNotTakenForKittis) {
   EXPECT_THAT(error("a.pcd.bin", std::string(80, '\0')), HasSubstr("nuScenes"));
+  // Four rows of five numbers are as long as five of four.
+  const std::vector<float> rows = {5.0F, -2.0F, 0.5F, 9.0F, 0.0F, 5.0F, -2.0F, 0.4F, 9.0F, 1.0F,
+                                   5.0F, -2.0F, 0.3F, 9.0F, 2.0F, 5.0F, -2.0F, 0.2F, 9.0F, 3.0F};
+  EXPECT_THAT(error("a.bin", bytes_of(rows)), HasSubstr("a.bin: is not KITTI's"));
 }
 
 TEST_F(CloudFile, ThatCannotBeUsedIsNamed) {
