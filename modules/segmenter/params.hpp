@@ -165,6 +165,8 @@ inline constexpr HiddenHeadParams kOverlookedBodies = [] {
   params.max_area_m2 = 1.3F;
   params.max_extent_m = 1.4F;
   params.min_part_odds = -3.0F;
+  // Their heads are in sight: at the top of a child or of somebody who sits, too.
+  params.min_shoulder_m = 0.0F;
   params.max_asked = 8;
   return params;
 }();

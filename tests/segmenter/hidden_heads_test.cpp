@@ -119,6 +119,22 @@ TEST(HiddenHeads, LeaveOutWhatSomebodyHas) {
   EXPECT_TRUE(find(lattice, found).empty());
 }
 
+TEST(BodyParts, OfAChildHaveItsHeadInSightAtTheirTop) {
+  constexpr float kTop_m = 0.9F;
+  const Lattice child = look_into_room([](float right_m, float up_m) {
+    return std::abs(right_m) < 0.15F && up_m < kTop_m - kSensorHeight_m && up_m > kSole_m ? kBody_m
+                                                                                          : 0.0F;
+  });
+  const FoundPeople found = nobody(child);
+  const auto head_m = [&](const HiddenHeadParams& params) {
+    return find_body_parts(child, surfaces_beside(child, found), found, params)
+        .at(0)
+        .head.center_m.z();
+  };
+  EXPECT_NEAR(head_m(kOverlookedBodies), kTop_m, 0.1F);
+  EXPECT_FLOAT_EQ(head_m({}), 1.6F) << "of an adult's, out of sight";
+}
+
 /// Says the same of every point.
 SurfaceClassifier always_surface(float odds) {
   Network network;
