@@ -20,6 +20,8 @@ struct HeadCandidate {
   float odds = 0.0F;  ///< log odds that this is a head, of the classifier
   /// `odds` come from the body beneath it, not from its shape.
   bool told_by_body = false;
+  /// That body was told from those of the people beside it: nobody's hand or chest.
+  bool stands_beside = false;
 };
 
 /// Heads by their shape: something as large as a head, nothing of its depth beside and over it,

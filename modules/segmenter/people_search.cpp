@@ -127,6 +127,7 @@ class Trial {
       for (const std::size_t b : left) {
         const bool ordered =
             heads[a].odds > heads[b].odds || (heads[a].odds == heads[b].odds && a < b);
+        if (heads[b].stands_beside) continue;
         if (ordered && (heads[a].center_m - heads[b].center_m).norm() < params_->classifier.rival_m)
           pairs.emplace_back(a, b);
       }

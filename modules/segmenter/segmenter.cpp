@@ -172,10 +172,27 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
 std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
                                                              const FoundPeople& people) const {
   if (!params_.depth_pose.enabled) return {};
-  std::vector<HeadCandidate> refused = find_overlooked(scene.lattice, people, params_.overlooked);
-  if (refused.empty()) return {};
-  const std::vector<std::int16_t> labels = grow_from(scene, refused, &people.labels);
-  return heads_of_people(scene, labels, std::move(refused), params_, depth_pose_);
+  const OverlookedParams& params = params_.overlooked;
+  std::vector<HeadCandidate> seen;
+  if (auto refused = find_overlooked(scene.lattice, people, params); !refused.empty()) {
+    const std::vector<std::int16_t> labels = grow_from(scene, refused, &people.labels);
+    seen = heads_of_people(scene, {std::move(refused), labels, 0, params.min_person_odds}, params_,
+                           depth_pose_);
+  }
+  if (auto merged = find_merged(scene.lattice, people, params); !merged.empty()) {
+    // They and the people whom they were taken for share the points anew.
+    std::vector<HeadCandidate> all = people.heads;
+    all.insert(all.end(), merged.begin(), merged.end());
+    const std::vector<std::int16_t> labels = grow_from(scene, std::move(all));
+    merged =
+        heads_of_people(scene,
+                        {std::move(merged), labels, static_cast<std::int16_t>(people.heads.size()),
+                         params.min_merged_person_odds, params.max_merged_error_m},
+                        params_, depth_pose_);
+    for (HeadCandidate& head : merged) head.stands_beside = true;
+    seen.insert(seen.end(), merged.begin(), merged.end());
+  }
+  return seen;
 }
 
 std::vector<std::int16_t> Segmenter::grow_as_paper(const Scene& scene,

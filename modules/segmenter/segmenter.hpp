@@ -48,7 +48,8 @@ class Segmenter {
   std::vector<std::int16_t> grow_as_paper(const Scene& scene,
                                           const std::vector<HeadCandidate>& seeds,
                                           Segments& result) const;
-  /// Refused heads whose whole bodies the network of depths takes for people.
+  /// Refused heads, alone and on somebody's body, whose own bodies the network of depths takes for
+  /// people.
   std::vector<HeadCandidate> find_overlooked_people(const Scene& scene,
                                                     const FoundPeople& people) const;
   /// The head of each of the cloud's points as all of them grow together, whether or not they are

@@ -89,6 +89,36 @@ TEST_F(RefusedHeads, AreNotAskedAboutWhereAnotherFilterEndedThem) {
   EXPECT_TRUE(overlooked().empty());
 }
 
+/// Candidates that were refused as parts of the figure that was found.
+class MergedHeads : public RefusedHeads {
+ protected:
+  void merge(HeadCandidate head, float odds = 0.0F) {
+    head.odds = odds;
+    refuse(head, SegmentFilter::kSamePerson);
+  }
+  std::vector<HeadCandidate> merged() const { return find_merged(lattice_, found_, {}); }
+};
+
+TEST_F(MergedHeads, AreAskedAbout) {
+  merge(first_);
+  const auto asked = merged();
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].u, first_.u);
+}
+
+TEST_F(MergedHeads, AreNotAskedAboutBehindAHeadThatHidesThem) {
+  HeadCandidate behind = found_.heads[0];
+  behind.center_m.y() += 0.5F;
+  merge(behind);
+  EXPECT_TRUE(merged().empty());
+}
+
+TEST_F(MergedHeads, AreNotAskedAboutWhereNothingSpeaksForThem) {
+  merge(first_, -2.0F);
+  refuse(second_, SegmentFilter::kNotHeadShaped);
+  EXPECT_TRUE(merged().empty());
+}
+
 /// What a segmenter finds that takes no head for one by the depths around it.
 class HeadsThatLookLikeNone : public ::testing::TestWithParam<std::uint64_t> {
  protected:
@@ -130,6 +160,23 @@ TEST_P(HeadsThatLookLikeNone, AreToldByASurfaceThatNobodyHas) {
   EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 1U);
 }
 
+/// How many of the true people in sight have a segment that began at their heads.
+std::ptrdiff_t count_found(const Cloud& cloud, const simulate::SimulatedFrame& frame,
+                           const Params& params) {
+  constexpr float kSameHead_m = 0.2F;
+  const Segments found = segment(cloud, params);
+  return std::count_if(
+      frame.scenario.persons.begin(), frame.scenario.persons.end(),
+      [&](const simulate::Person& person) {
+        const Eigen::Vector3f head_m = person.skeleton[Joint::kHead].cast<float>();
+        return std::any_of(found.segments.begin(), found.segments.end(),
+                           [&](const Segment& segment) {
+                             return segment.valid() &&
+                                    (behind_surface(segment.seed_m) - head_m).norm() < kSameHead_m;
+                           });
+      });
+}
+
 TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
   simulate::SimulatorParams room = person_in_sight(simulate::SensorKind::kDepth, "hang");
   room.scenario.set = simulate::SetKind::kNoHuman;
@@ -138,6 +185,21 @@ TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
   EXPECT_EQ(count_people(room, GetParam(), all_asked), 0U);
 }
 
+/// Groups of five, two of whom touch.
+class PeopleWhoTouch : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(PeopleWhoTouch, AreFoundWhereOneWasTakenForAPartOfTheOther) {
+  auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  scene.scenario.set = simulate::SetKind::kMulti;
+  const simulate::SimulatedFrame frame = simulate::simulate_frame(scene, GetParam(), 0);
+  const Cloud cloud = depth_cloud(scene, frame);
+  Params nobody_asked;
+  nobody_asked.overlooked.min_merged_odds = 100.0F;
+  EXPECT_EQ(count_found(cloud, frame, nobody_asked), 4);
+  EXPECT_EQ(count_found(cloud, frame, {}), 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Simulated, PeopleWhoTouch, ::testing::Values(13, 41));
 INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
 
 }  // namespace
