@@ -70,7 +70,7 @@ std::vector<BodyPoses> read_reported(const Options& options) {
   std::vector<BodyPoses> frames = read_log(options.log, options.channel);
   if (frames.empty())
     throw UsageError(options.log + ": holds no poses on " + options.channel +
-                     "; limbcast-replay adds them");
+                     "; limbcast-replay adds them (tracked ones with --tracker)");
   return frames;
 }
 

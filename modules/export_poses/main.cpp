@@ -37,8 +37,9 @@ void export_log(const Options& options) {
   flush_lines();
   lcm_io::warn_about(summary, options.log, options.channel);
   if (summary.messages == 0)
-    config::log(config::LogLevel::kWarning, options.log + ": holds no poses on " + options.channel +
-                                                "; limbcast-replay adds them");
+    config::log(config::LogLevel::kWarning,
+                options.log + ": holds no poses on " + options.channel +
+                    "; limbcast-replay adds them (tracked ones with --tracker)");
 }
 
 void export_live(const Options& options, const std::string& lcm_url) {

@@ -108,8 +108,10 @@ class CloudFiles : public CloudSource {
     const RawCloud raw = read_cloud_file(recorded.first_path, params_.max_points);
     const bool is_kitti = extension_of(recorded.first_path) == ".bin";
     frame.cloud = converted(raw, is_kitti ? kitti_axes_ : axes_, params_);
-    frame.fault = fault_of(frame.cloud, raw, params_, recorded.first_path,
-                           "give --unit-m 0.001 where they are in millimetres");
+    frame.fault =
+        fault_of(frame.cloud, raw, params_, recorded.first_path,
+                 params_.unit_m == 1.0 ? "give --unit-m 0.001 where they are in millimetres"
+                                       : "is --unit-m right?");
     if (recorded.time.down) {
       frame.stamp.gravity.down = *recorded.time.down;
       frame.stamp.gravity.source = GravitySource::kRecording;

@@ -98,8 +98,8 @@ class Replay {
       throw UsageError((reader.torn_bytes() > 0
                             ? lcm_io::torn_end(options_.in, reader.torn_bytes()) + "; what is left"
                             : options_.in + ":") +
-                       " holds no images, clouds or segments to begin with; see --from and the "
-                       "options of channels");
+                       " holds nothing to begin with; see --from, --tracker and the options of "
+                       "channels");
   }
 
   bool may_begin(Level level) const {

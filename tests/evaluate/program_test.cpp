@@ -121,7 +121,8 @@ TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
   expect_usage_error({folder / "foreign.log"}, "is no LCM log");
   expect_usage_error({folder / "bare.log"}, "carries no truth");
   expect_usage_error({folder / "in.log"},
-                     "holds no poses on BODY_POSES; limbcast-replay adds them");
+                     "holds no poses on BODY_POSES; limbcast-replay adds them (tracked ones "
+                     "with --tracker)");
   expect_usage_error({folder / "in.log", "--truth", folder / "truth"}, "limbcast-replay adds them");
   expect_usage_error({folder / "bare.log", "--bodies", "D4"}, "--bodies needs --truth");
   expect_usage_error({"--poses", folder / "poses.jsonl"}, "--poses needs --truth");

@@ -181,15 +181,18 @@ TEST_F(Recorded, FolderGivesCloudsOfNamesInCapitalsAndNoFolders) {
 }
 
 TEST_F(Recorded, CloudWithoutPointsWithinTheLimitsSaysWhy) {
-  const auto fault = [this](const std::string& rows) {
+  const auto fault = [this](const std::string& rows, double unit_m = 1.0) {
     const std::string path = folder_.write(
         "a.pcd",
         "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\n" + rows);
-    return open_cloud_source(params(path))->next()->fault;
+    CloudSourceParams of_cloud = params(path);
+    of_cloud.unit_m = unit_m;
+    return open_cloud_source(of_cloud)->next()->fault;
   };
   EXPECT_EQ(fault("0 0 2000\n0 0 1000\n"), folder_ / "a.pcd" +
                                                ": none of 2 points lies within 0.3 to 30 m; "
                                                "give --unit-m 0.001 where they are in millimetres");
+  EXPECT_THAT(fault("0 0 2\n0 0 1\n", 0.001), HasSubstr("is --unit-m right?"));
   EXPECT_THAT(fault("nan nan nan\nnan nan nan\n"), HasSubstr("a.pcd: has no finite points"));
   EXPECT_EQ(fault("0 0 2\n0 0 1000\n"), "");
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -259,6 +260,7 @@ std::vector<Eigen::Vector3f> true_heads(const LoadedFrame& frame) {
 
 void run_set(const std::string& set, const Arguments& arguments) {
   const Segmenter segmenter(arguments.params);
+  if (!arguments.draw.empty()) std::filesystem::create_directories(arguments.draw);
   const FrameReader reader(arguments.sets.folder(set), arguments.depth_from);
   SetSums sums;
   for (const std::string& path : reader.paths()) {
