@@ -101,7 +101,7 @@ void add_pointing(const Tally& tally, std::vector<Figure>& figures) {
   };
   direction("pointing", "pointing, arm axis", tally.pointing_errors_deg, "<= 1.5", "<= 4");
   direction("forearm", "pointing, forearm", tally.forearm_errors_deg, "", "");
-  direction("head_hand", "pointing, head-hand", tally.head_hand_errors_deg, "", "");
+  direction("head_hand", "pointing, head to hand", tally.head_hand_errors_deg, "", "");
   figures.push_back(percent("said_to_point_percent", "not pointing but said to [%]",
                             tally.said_to_point, "found persons with resting arms", "<= 1"));
   figures.push_back(percent("told_arms_off_percent", "told arms that are elsewhere [%]",

@@ -120,9 +120,9 @@ std::string report_text(const Report& report, const Tally& tally, int max_findin
   std::ostringstream out;
   out << formatted("%d frames with truth, %d of them not reported\n\n", tally.frames,
                    tally.frames_not_reported);
-  out << formatted("%-34s %8s %16s  %-26s %s\n", "figure", "value", "95 % interval", "goal", "of");
+  out << formatted("%-40s %8s %16s  %-26s %s\n", "figure", "value", "95 % interval", "goal", "of");
   for (const Figure& figure : report.figures)
-    out << formatted("%-34s %8s %16s  %-26s %s\n", figure.title.c_str(), value_text(figure).c_str(),
+    out << formatted("%-40s %8s %16s  %-26s %s\n", figure.title.c_str(), value_text(figure).c_str(),
                      interval_text(figure).c_str(), figure.goal.c_str(),
                      basis_text(figure).c_str());
   write_joints(report, out);

@@ -95,11 +95,12 @@ class Replay {
     for (const auto& [sensor, level] : contents_.first_level)
       contents_.frames += static_cast<int>(frames.at({sensor, level}).size());
     if (contents_.frames == 0)
-      throw UsageError((reader.torn_bytes() > 0
-                            ? lcm_io::torn_end(options_.in, reader.torn_bytes()) + "; what is left"
-                            : options_.in + ":") +
-                       " holds nothing to begin with; see --from, --tracker and the options of "
-                       "channels");
+      throw UsageError(
+          (reader.torn_bytes() > 0
+               ? lcm_io::torn_end(options_.in, reader.torn_bytes()) + "; what is left"
+               : options_.in + ":") +
+          " holds no images, clouds or segments (with --tracker: poses) to begin with; "
+          "see --from and the options of channels");
   }
 
   bool may_begin(Level level) const {
