@@ -13,7 +13,10 @@ constexpr double kMicrosecondsPerMillisecond = 1000.0;
 /// Below the period of a camera at 30 frames a second, so that frames keep their order in time.
 constexpr double kLargestClockOffset_ms = 20.0;
 
-const std::vector<std::string> kSources = {"stereo_camera", "depth_camera", "laser_scanner"};
+/// What needs a reconstructor behind it, and what may give clouds itself.
+const std::vector<std::string> kCameras = {"stereo_camera", "depth_camera"};
+const std::vector<std::string> kSourcesOfClouds = {"laser_scanner", "simulate"};
+/// The reconstructor first.
 const std::vector<std::string> kChain = {"reconstructor", "segmenter", "pose_fitter"};
 
 /// "pose_fitter" -> "limbcast-pose-fitter"
@@ -64,6 +67,11 @@ bool heard(const Traffic& traffic, const std::string& module) {
                      [&module](const ModuleReport& report) { return report.module == module; });
 }
 
+bool any_heard(const Traffic& traffic, const std::vector<std::string>& modules) {
+  return std::any_of(modules.begin(), modules.end(),
+                     [&](const std::string& module) { return heard(traffic, module); });
+}
+
 Finding missing(const std::string& module) {
   return {Level::kProblem, "module " + module, "is not heard",
           "systemctl start " + unit_of(module)};
@@ -79,10 +87,11 @@ Findings check_missing(const Traffic& traffic, const std::vector<std::string>& e
 Findings check_chain(const Traffic& traffic) {
   if (traffic.reports.empty())
     return {{Level::kNote, "modules", "none is heard; start them, or check the LCM URL", ""}};
-  Findings findings = check_missing(traffic, kChain);
-  const bool has_source = std::any_of(kSources.begin(), kSources.end(),
-                                      [&](const std::string& s) { return heard(traffic, s); });
-  if (!has_source)
+  const bool clouds_alone = any_heard(traffic, kSourcesOfClouds) && !any_heard(traffic, kCameras);
+  std::vector<std::string> chain = kChain;
+  if (clouds_alone) chain.erase(chain.begin());
+  Findings findings = check_missing(traffic, chain);
+  if (!clouds_alone && !any_heard(traffic, kCameras))
     findings.push_back({Level::kProblem, "modules", "no camera or laser scanner is heard",
                         "systemctl start limbcast-stereo-camera@SENSOR, or by hand "
                         "limbcast-stereo-camera, limbcast-depth-camera or limbcast-laser-scanner"});

@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -50,6 +51,17 @@ TEST(CheckModules, NamesWhatIsMissingInAChainThatRuns) {
   traffic.reports = {report("stereo_camera", "a"), report("reconstructor", "b"),
                      report("pose_fitter", "b")};
   EXPECT_THAT(check_modules(traffic, {}), Contains(problem("module segmenter", "not heard")));
+}
+
+TEST(CheckModules, MissesNoReconstructorAndNoCameraBesideASourceOfClouds) {
+  for (const std::string source : {"laser_scanner", "simulate"}) {
+    Traffic traffic;
+    traffic.reports = {report(source, "a"), report("segmenter", "a"), report("pose_fitter", "a")};
+    EXPECT_THAT(check_modules(traffic, {}), Each(Field(&Finding::level, Level::kGood))) << source;
+    traffic.reports.push_back(report("depth_camera", "a"));
+    EXPECT_THAT(check_modules(traffic, {}), Contains(problem("module reconstructor", "not heard")))
+        << source;
+  }
 }
 
 TEST(CheckModules, OnlyNotesThatNothingRunsYet) {
