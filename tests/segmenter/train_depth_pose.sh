@@ -4,7 +4,7 @@
 # confidences of the refined fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch and
 # python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   14600 simulated frames, 10 GB, about an hour on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   14290 simulated frames, 10 GB, about an hour on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
 # Run it after segments or range images changed. Training takes an hour and a half on two cores without
