@@ -160,6 +160,14 @@ TEST_P(HeadsThatLookLikeNone, AreToldByASurfaceThatNobodyHas) {
   EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 1U);
 }
 
+TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
+  simulate::SimulatorParams room = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  room.scenario.set = simulate::SetKind::kNoHuman;
+  Params all_asked = strict();
+  all_asked.overlooked_bodies = kOverlookedBodies;
+  EXPECT_EQ(count_people(room, GetParam(), all_asked), 0U);
+}
+
 /// How many of the true people in sight have a segment that began at their heads.
 std::ptrdiff_t count_found(const Cloud& cloud, const simulate::SimulatedFrame& frame,
                            const Params& params) {
@@ -175,14 +183,6 @@ std::ptrdiff_t count_found(const Cloud& cloud, const simulate::SimulatedFrame& f
                                     (behind_surface(segment.seed_m) - head_m).norm() < kSameHead_m;
                            });
       });
-}
-
-TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
-  simulate::SimulatorParams room = person_in_sight(simulate::SensorKind::kDepth, "hang");
-  room.scenario.set = simulate::SetKind::kNoHuman;
-  Params all_asked = strict();
-  all_asked.overlooked_bodies = kOverlookedBodies;
-  EXPECT_EQ(count_people(room, GetParam(), all_asked), 0U);
 }
 
 /// Groups of five, two of whom touch.
