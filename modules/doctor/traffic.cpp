@@ -16,7 +16,7 @@ constexpr double kLargestClockOffset_ms = 20.0;
 /// What needs a reconstructor behind it, and what may give clouds itself.
 const std::vector<std::string> kCameras = {"stereo_camera", "depth_camera"};
 const std::vector<std::string> kSourcesOfClouds = {"laser_scanner", "simulate"};
-/// The reconstructor first.
+const std::vector<std::string> kBehindClouds = {"segmenter", "pose_fitter"};
 const std::vector<std::string> kChain = {"reconstructor", "segmenter", "pose_fitter"};
 
 /// "pose_fitter" -> "limbcast-pose-fitter"
@@ -87,11 +87,10 @@ Findings check_missing(const Traffic& traffic, const std::vector<std::string>& e
 Findings check_chain(const Traffic& traffic) {
   if (traffic.reports.empty())
     return {{Level::kNote, "modules", "none is heard; start them, or check the LCM URL", ""}};
-  const bool clouds_alone = any_heard(traffic, kSourcesOfClouds) && !any_heard(traffic, kCameras);
-  std::vector<std::string> chain = kChain;
-  if (clouds_alone) chain.erase(chain.begin());
-  Findings findings = check_missing(traffic, chain);
-  if (!clouds_alone && !any_heard(traffic, kCameras))
+  const bool camera = any_heard(traffic, kCameras);
+  const bool clouds = any_heard(traffic, kSourcesOfClouds);
+  Findings findings = check_missing(traffic, clouds && !camera ? kBehindClouds : kChain);
+  if (!camera && !clouds)
     findings.push_back({Level::kProblem, "modules", "no camera or laser scanner is heard",
                         "systemctl start limbcast-stereo-camera@SENSOR, or by hand "
                         "limbcast-stereo-camera, limbcast-depth-camera or limbcast-laser-scanner"});

@@ -159,8 +159,9 @@ struct OverlookedParams {
   /// sight [m].
   float min_merged_odds = -1.0F, min_merged_distance_m = 0.2F;
   /// Lowest log odds of a person, of the network, and how far off it may mark the head [m]: of
-  /// hands and chests it marks the head where that is, 0.2 m off or more. Seven of 980 simulated
-  /// people in groups are found so, with nothing but people (tests/accuracy/README.md).
+  /// hands and chests it marks the head where that is, 0.2 m off or more. Of 982 simulated
+  /// people in groups three more are found so, and no report more is wrong
+  /// (tests/accuracy/README.md).
   float min_merged_person_odds = 5.0F, max_merged_error_m = 0.15F;
 };
 
