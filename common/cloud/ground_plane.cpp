@@ -38,26 +38,35 @@ struct Support {
   int score() const { return inliers - 2 * below; }
 };
 
-Sample thin(const Cloud& cloud, int sample_size) {
+Sample thin(const Cloud& cloud, const GroundPlaneParams& params) {
   Sample sample;
-  const std::size_t wanted = std::max(1, sample_size);
+  const std::size_t wanted = std::max(1, params.sample_size);
+  const auto is_near = [&](std::size_t index) {
+    return cloud.points_m[index].norm() <= static_cast<float>(params.max_distance_m);
+  };
   if (cloud.organized()) {
     const double share = static_cast<double>(cloud.points_m.size()) / static_cast<double>(wanted);
     const int step = std::max(1, static_cast<int>(std::sqrt(share)));
     for (int v = step / 2; v < cloud.height; v += step) {
       for (int u = step / 2; u < cloud.width; u += step) {
         const std::size_t index = static_cast<std::size_t>(v) * cloud.width + u;
-        if (!cloud.is_hole(index)) sample.add(cloud.points_m[index], cloud.stamp.depth_noise);
+        if (!cloud.is_hole(index) && is_near(index))
+          sample.add(cloud.points_m[index], cloud.stamp.depth_noise);
       }
     }
     return sample;
   }
+  std::vector<std::size_t> near;
+  near.reserve(cloud.points_m.size());
+  for (std::size_t index = 0; index < cloud.points_m.size(); ++index) {
+    if (is_near(index)) near.push_back(index);
+  }
   // The order of an unorganised cloud may be that of the scan, so an even step could meet one ring
   // only.
   std::minstd_rand random(1);
-  const std::size_t count = std::min(wanted, cloud.points_m.size());
+  const std::size_t count = std::min(wanted, near.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = count == cloud.points_m.size() ? i : random() % cloud.points_m.size();
+    const std::size_t index = near[count == near.size() ? i : random() % near.size()];
     sample.add(cloud.points_m[index], cloud.stamp.depth_noise);
   }
   return sample;
@@ -90,14 +99,14 @@ std::optional<Plane> plane_through(const std::array<Eigen::Vector3f, 3>& points,
 
 /// The best of many planes through three points each: ranked on a tenth of the sample, the first
 /// ones on all.
-std::optional<Plane> search(const Sample& sample, const Eigen::Vector3f& down,
+std::optional<Plane> search(const Sample& sample, const Eigen::Vector3f& down, int draws,
                             const GroundPlaneParams& params) {
   constexpr std::size_t kCoarseStep = 10;
   constexpr std::size_t kFinalists = 24;
   const auto inlier_m = static_cast<float>(params.inlier_distance_m);
   std::vector<std::pair<int, Plane>> candidates;
   std::minstd_rand random(1);
-  for (int i = 0; i < params.ransac_iterations; ++i) {
+  for (int i = 0; i < draws; ++i) {
     std::array<Eigen::Vector3f, 3> points;
     for (Eigen::Vector3f& point : points) point = sample.point(random() % sample.size());
     const auto plane = plane_through(points, down, params);
@@ -155,16 +164,9 @@ double confidence_of(const Support& support, double inlier_share, double extent_
                    clearness(params.max_below_share, below_share)});
 }
 
-struct Ground {
-  GroundPlane plane;
-  Sample sample;
-};
-
-std::optional<Ground> find(const Cloud& cloud, const Eigen::Vector3f& down,
-                           const GroundPlaneParams& params) {
-  Sample sample = thin(cloud, params.sample_size);
-  if (sample.size() < 50) return std::nullopt;
-  std::optional<Plane> plane = search(sample, down, params);
+std::optional<GroundPlane> find_in(const Sample& sample, const Eigen::Vector3f& down, int draws,
+                                   const GroundPlaneParams& params) {
+  std::optional<Plane> plane = search(sample, down, draws, params);
   if (!plane) return std::nullopt;
   const auto inlier_m = static_cast<float>(params.inlier_distance_m);
   double extent_m = 0.0;
@@ -181,7 +183,22 @@ std::optional<Ground> find(const Cloud& cloud, const Eigen::Vector3f& down,
       plane->down.dot(down) < std::cos(params.max_tilt_rad))
     return std::nullopt;
   const auto confidence = static_cast<float>(confidence_of(support, share, extent_m, params));
-  return Ground{{plane->down, plane->height_m, share, confidence}, std::move(sample)};
+  return GroundPlane{plane->down, plane->height_m, share, confidence};
+}
+
+struct Ground {
+  GroundPlane plane;
+  Sample sample;
+};
+
+std::optional<Ground> find(const Cloud& cloud, const Eigen::Vector3f& down,
+                           const GroundPlaneParams& params) {
+  Sample sample = thin(cloud, params);
+  if (sample.size() < 50) return std::nullopt;
+  auto plane = find_in(sample, down, params.ransac_iterations, params);
+  if (!plane) plane = find_in(sample, down, params.hard_ransac_iterations, params);
+  if (!plane) return std::nullopt;
+  return Ground{*plane, std::move(sample)};
 }
 
 /// Median of the ground's points' distances along `down`: where a told gravity is off by half a

@@ -18,8 +18,12 @@ struct GroundPlaneParams {
   double max_height_m = 4.0;
   /// Distance to the plane that still counts as ground [m]; two sigma of the depth noise are added.
   double inlier_distance_m = 0.03;
-  /// The plane must hold at least this share of the cloud (a frame filled by one person shows about
-  /// 5 % floor).
+  /// Points farther away say nothing of the ground [m]: streets slope and have kerbs, and who is
+  /// found stands within 8 m. Of nine real scans of streets and yards eight show a plane within 10
+  /// m, three within 30 m.
+  double max_distance_m = 10.0;
+  /// The plane must hold at least this share of those points (a frame filled by one person shows
+  /// about 5 % floor).
   double min_inlier_share = 0.04;
   /// At most this many points below the plane for one point on it: under the ground there is
   /// nothing, so a table or a shelf does not pass.
@@ -29,6 +33,8 @@ struct GroundPlaneParams {
   /// Draws of 3 points. 99 % success at 18 % ground: log(1 - 0.99) / log(1 - 0.18^3), Szeliski,
   /// Computer Vision (2010), Eq. (6.30).
   int ransac_iterations = 800;
+  /// Draws where those find no ground: 99 % success at 8 %, as between parked cars.
+  int hard_ransac_iterations = 8000;
   /// The cloud is thinned to about this many points.
   int sample_size = 2400;
 };
@@ -36,7 +42,7 @@ struct GroundPlaneParams {
 struct GroundPlane {
   Eigen::Vector3f down;       ///< unit normal of the ground, away from the sensor
   float height_m = 0.0F;      ///< of the sensor's origin over the plane
-  float inlier_share = 0.0F;  ///< of the cloud's points
+  float inlier_share = 0.0F;  ///< of the points that are near enough
   /// How clearly it is the ground, 0.5 to 1: the least of three figures, which are 0.5 where the
   /// plane only just passes: its share of the points, its extent, and how little lies below it.
   float confidence = 0.0F;

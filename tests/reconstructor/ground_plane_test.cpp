@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace limbcast {
 namespace {
@@ -36,11 +37,43 @@ Cloud room(double height_m, double pitch_rad, bool with_floor = true, bool with_
   return cloud;
 }
 
+/// A scan of a street, 1.8 m below the scanner: `ground_share` of the points lie on the ground, all
+/// else are walls, trees and cars above it. Farther than 10 m away it falls by one in ten.
+Cloud street(double ground_share) {
+  Cloud cloud;
+  std::minstd_rand random(3);
+  std::uniform_real_distribution<float> across_m(-20.0F, 20.0F), down_m(-4.0F, 1.5F), share;
+  for (int i = 0; i < 20000; ++i) {
+    Eigen::Vector3f point_m(across_m(random), down_m(random), across_m(random));
+    if (share(random) < static_cast<float>(ground_share))
+      point_m.y() = 1.8F + 0.1F * std::max(0.0F, std::hypot(point_m.x(), point_m.z()) - 10.0F);
+    cloud.points_m.push_back(point_m);
+  }
+  return cloud;
+}
+
 TEST(GroundPlane, FindsFloorOfAPitchedCamera) {
   const auto ground = find_ground_plane(room(1.3, 0.35, true, true), {0.0F, 1.0F, 0.0F});
   ASSERT_TRUE(ground);
   EXPECT_NEAR(ground->height_m, 1.3F, 0.005F);
   EXPECT_NEAR(std::atan2(ground->down.z(), ground->down.y()), 0.35, 0.003);
+}
+
+TEST(GroundPlane, OfAStreetThatFallsAwayIsTheOneNearby) {
+  const auto ground = find_ground_plane(street(0.4), {0.0F, 1.0F, 0.0F});
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->height_m, 1.8F, 0.02F);
+  EXPECT_GT(ground->down.y(), 0.999F);
+}
+
+TEST(GroundPlane, IsLookedForLongerWhereLittleOfItIsSeen) {
+  const Cloud cloud = street(0.06);
+  GroundPlaneParams no_longer;
+  no_longer.hard_ransac_iterations = no_longer.ransac_iterations;
+  ASSERT_FALSE(find_ground_plane(cloud, {0.0F, 1.0F, 0.0F}, no_longer));
+  const auto ground = find_ground_plane(cloud, {0.0F, 1.0F, 0.0F});
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->height_m, 1.8F, 0.02F);
 }
 
 TEST(GroundPlane, FindsNoneOnAWall) {
