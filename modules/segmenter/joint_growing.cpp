@@ -62,7 +62,8 @@ JointGrowth::JointGrowth(const Lattice& lattice, std::vector<HeadCandidate> head
       reach_(reach),
       labels_(lattice.size(), kNobody),
       way_m_(lattice.size(), kNoWay_m),
-      buckets_(bucket_of(params.max_way_m) + 2) {
+      buckets_(bucket_of(params.max_way_m) + 2),
+      bridged_(lattice.size(), 0) {
   if (taken != nullptr) {
     forbidden_.resize(lattice.size());
     std::transform(taken->begin(), taken->end(), forbidden_.begin(),
@@ -95,6 +96,7 @@ void JointGrowth::undo_drop() {
     way_m_[change->point] = change->way_m;
   }
   changes_.clear();
+  for (std::size_t k = bridges_before_; k < bridges_.size(); ++k) bridged_[bridges_[k].from] = 0;
   bridges_.resize(bridges_before_);
   dropped_[static_cast<std::size_t>(last_dropped_)] = false;
 }
@@ -121,6 +123,7 @@ void JointGrowth::grow_anew() {
   labels_.assign(labels_.size(), kNobody);
   way_m_.assign(way_m_.size(), kNoWay_m);
   bridges_.clear();
+  bridged_.assign(bridged_.size(), 0);
   grow();
 }
 
@@ -211,10 +214,11 @@ void JointGrowth::step_behind(std::uint32_t i, int u, int v) {
     if (next && lattice_->depth_m[*next] >= z_m - step_m) continue;
     const auto n = find_behind(i, du, dv);
     if (!n) continue;
-    bridges_.push_back({i, *n});
+    if (bridged_[i] == 0) bridges_.push_back({i, *n});
     relax(i, *n,
           way_m_[i] + params_.gap_cost * (lattice_->level_m[*n] - lattice_->level_m[i]).norm());
   }
+  bridged_[i] = 1;
 }
 
 /// The point where the surface at point i goes on, seen from it in one direction of the image: the

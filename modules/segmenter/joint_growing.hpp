@@ -32,6 +32,9 @@ class JointGrowth {
   /// Takes the last drop back, if nothing was changed since.
   void undo_drop();
 
+  /// How many places are remembered where a surface goes on behind what hides it: each once.
+  std::size_t bridge_count() const { return bridges_.size(); }
+
   /// Grows again without some points: what turned out to be no part of a body.
   void grow_without(const std::vector<std::uint32_t>& points);
   /// Grows again over some of the points that heads have, and over nothing else.
@@ -80,6 +83,7 @@ class JointGrowth {
   std::vector<std::vector<std::uint32_t>> buckets_;
   std::size_t bucket_ = 0;  ///< the one that is being walked
   std::vector<Bridge> bridges_;
+  std::vector<std::uint8_t> bridged_;  ///< 1 for a point whose bridges are among them
   // Of the last drop: what it changed, so that it can be taken back.
   bool dropping_ = false;
   std::int16_t last_dropped_ = kNobody;

@@ -94,6 +94,19 @@ TEST(JointGrowth, TakesADropBack) {
   EXPECT_EQ(growth.labels(), labels_of(lattice, {head_at(lattice, 0.0F, 0.8F)}));
 }
 
+TEST(JointGrowth, RemembersEachWayBehindWhatHidesABodyOnce) {
+  const Lattice lattice = look_at(board_behind_bar);
+  std::vector<HeadCandidate> heads;
+  for (const float up_m : {0.8F, 0.2F, 0.0F, -0.2F, -0.4F})
+    heads.push_back(head_at(lattice, 0.0F, up_m));
+  JointGrowth growth(lattice, heads, {}, {});
+
+  for (std::int16_t head = 1; head < 5; ++head) growth.drop(head);
+
+  // Were they told again with each drop, they would grow without bounds where many heads are none.
+  EXPECT_EQ(growth.bridge_count(), JointGrowth(lattice, {heads[0]}, {}, {}).bridge_count());
+}
+
 TEST(JointGrowth, TellsThePointsThatADropFreed) {
   const Lattice lattice = look_at(board_behind_bar);
   JointGrowth growth(lattice, {head_at(lattice, 0.0F, 0.8F), head_at(lattice, 0.1F, -0.2F)}, {},
