@@ -16,6 +16,7 @@
 
 #include "common/camera/calibration_writer.hpp"
 #include "common/config/options.hpp"
+#include "common/joined.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/decode.hpp"
@@ -66,12 +67,6 @@ std::string file_name_of(const std::string& channel) {
   }
   const bool is_hidden = name.empty() || name.front() == '.';
   return (is_hidden ? "_" : "") + name + ".jsonl";
-}
-
-std::string joined(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 UsageError no_such_sensor(const ExtractOptions& options, const std::set<std::string>& sensors) {
