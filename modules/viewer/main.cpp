@@ -20,6 +20,7 @@
 #include "common/lcm_io/module.hpp"
 #include "common/lcm_io/module_status_codec.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/lcm_io/pose_log.hpp"
 #include "common/lcm_io/segments_codec.hpp"
 #include "modules/viewer/frame_assembler.hpp"
 #include "modules/viewer/log_frames.hpp"
@@ -147,10 +148,25 @@ void show_log(const Options& options, LogFrames& log, const std::vector<int>& nu
   }
 }
 
+/// Clouds are worth a look without poses, but who has poses elsewhere gave the wrong channel.
+void check_content(const Options& options, const LogFrames& log_frames) {
+  if (log_frames.has_poses()) return;
+  const ViewChannels& channels = options.channels;
+  const std::set<std::string>& others = log_frames.other_pose_channels();
+  if (log_frames.count() == 0 && others.empty())
+    throw config::UsageError(options.log + ": holds nothing to draw on " + channels.point_cloud +
+                             ", " + channels.segments + " or " + channels.poses +
+                             "; limbcast-replay adds it");
+  const std::string text = lcm_io::no_poses_on(channels.poses, options.log, others);
+  if (!others.empty()) throw config::UsageError(text);
+  log(LogLevel::kWarning, text);
+}
+
 void view_log(const Options& options) {
   LogFrames log_frames(options.log, options.channels);
+  check_content(options, log_frames);
   const std::vector<int> numbers = wanted_frames(options, log_frames.count());
-  const bool windowed = to_window(options) && !numbers.empty();
+  const bool windowed = to_window(options);
   std::size_t num_drawn = 0;
   if (windowed)
     show_log(options, log_frames, numbers);
@@ -160,10 +176,7 @@ void view_log(const Options& options) {
     log(LogLevel::kWarning, std::to_string(log_frames.num_malformed()) + " messages dropped");
   if (log_frames.torn_bytes() > 0)
     log(LogLevel::kWarning, lcm_io::torn_end(options.log, log_frames.torn_bytes()));
-  if (numbers.empty())
-    log(LogLevel::kWarning,
-        options.log + ": holds no clouds, segments or poses to draw; limbcast-replay adds them");
-  if (windowed || numbers.empty()) return;
+  if (windowed) return;
   const std::string drawn =
       std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames";
   if (num_drawn < numbers.size())

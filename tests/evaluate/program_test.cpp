@@ -121,8 +121,8 @@ TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
   expect_usage_error({folder / "foreign.log"}, "is no LCM log");
   expect_usage_error({folder / "bare.log"}, "carries no truth");
   expect_usage_error({folder / "in.log"},
-                     "holds no poses on BODY_POSES; limbcast-replay adds them (tracked ones "
-                     "with --tracker)");
+                     "holds no poses on BODY_POSES but on GROUND_TRUTH; choose such a channel, or "
+                     "limbcast-replay adds them (tracked ones with --tracker)");
   expect_usage_error({folder / "in.log", "--truth", folder / "truth"}, "limbcast-replay adds them");
   expect_usage_error({folder / "bare.log", "--bodies", "D4"}, "--bodies needs --truth");
   expect_usage_error({"--poses", folder / "poses.jsonl"}, "--poses needs --truth");
@@ -200,6 +200,7 @@ TEST(EvaluateProgram, GoesOnWithATornLog) {
   const Outcome outcome = evaluate_program({folder / "out.log"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, HasSubstr("is torn"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 frames with truth, 1 of them not reported"));
 }
 
