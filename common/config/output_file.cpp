@@ -40,4 +40,12 @@ void check_output_file(const std::string& option, const std::string& path,
                      option);
 }
 
+void make_output_folder(const std::string& option, const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (fs::is_directory(path, error)) return;
+  if (fs::exists(path, error)) throw UsageError(path + ": is no folder; give one to " + option);
+  throw UsageError(path + ": cannot be made; choose another " + option);
+}
+
 }  // namespace limbcast::config

@@ -12,4 +12,8 @@ namespace limbcast::config {
 void check_output_file(const std::string& option, const std::string& path,
                        const std::vector<std::string>& inputs = {});
 
+/// Makes the folder that the user gave to `option` where it is missing. Throws UsageError where
+/// that is not possible.
+void make_output_folder(const std::string& option, const std::string& path);
+
 }  // namespace limbcast::config

@@ -16,6 +16,7 @@
 
 #include "common/camera/calibration_writer.hpp"
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
 #include "common/joined.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
@@ -41,12 +42,6 @@ const std::set<std::string>& types_of(Extracted what) {
       {Extracted::kClouds, {point_cloud_t::getTypeName()}},
       {Extracted::kPoses, {body_poses_t::getTypeName()}}};
   return types.at(what);
-}
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw UsageError(folder + ": cannot be made (" + error.message() + ")");
 }
 
 /// Frames of two runs would be taken for one recording.
@@ -101,7 +96,7 @@ class FrameWriter {
   FrameWriter(const ExtractOptions& options, std::string sensor)
       : options_(options), sensor_(std::move(sensor)) {
     require_no_recording(options.folder);
-    make_folder(options.folder);
+    config::make_output_folder("FOLDER", options.folder);
   }
 
   void take(const LogEvent& event) {
@@ -176,7 +171,7 @@ class FrameWriter {
 class PoseWriter {
  public:
   explicit PoseWriter(const ExtractOptions& options) : options_(options) {
-    make_folder(options.folder);
+    config::make_output_folder("FOLDER", options.folder);
   }
 
   void take(const LogEvent& event) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/segments_t.hpp>
@@ -67,18 +66,11 @@ void declare(config::Section& section, Options& options) {
 
 bool to_window(const Options& options) { return options.png.empty() && options.video.empty(); }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw config::UsageError(folder + ": cannot be made; give a folder to --png");
-}
-
 /// Draws frames into files.
 class Output {
  public:
   explicit Output(const Options& options) : options_(options) {
-    if (!options.png.empty()) make_folder(options.png);
+    if (!options.png.empty()) config::make_output_folder("--png", options.png);
     if (!options.video.empty())
       video_ = std::make_unique<SheetVideo>(options.video, options.rate_hz);
   }
