@@ -21,6 +21,7 @@
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
 #include "common/input_file.hpp"
+#include "common/joined.hpp"
 
 namespace limbcast::config {
 namespace {
@@ -116,6 +117,13 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
 bool Parser::on_command_line(const std::string& key) const {
   return std::any_of(on_command_line_.begin(), on_command_line_.end(),
                      [&key](const std::string& name) { return section_and_key(name).key == key; });
+}
+
+std::string Parser::on_command_line(const std::vector<std::string>& keys) const {
+  std::vector<std::string> given;
+  for (const std::string& key : keys)
+    if (on_command_line(key)) given.push_back(key);
+  return joined(given);
 }
 
 std::vector<Parser::Given> Parser::read_command_line(int argc, const char* const* argv) const {

@@ -101,9 +101,7 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
 
 void refuse_live_options(const std::string& recording, const std::vector<std::string>& keys,
                          const config::Parser& parser) {
-  std::string given;
-  for (const std::string& key : keys)
-    if (parser.on_command_line(key)) given += (given.empty() ? "" : ", ") + key;
+  const std::string given = parser.on_command_line(keys);
   if (!given.empty())
     throw config::UsageError(recording + ": is a recording; leave out " + given +
                              " (for live sensors only)");

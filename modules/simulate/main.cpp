@@ -109,6 +109,7 @@ void run(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
   const SimulatorParams params = to_params(options);
+  refuse_options_of_others(options, parser);
   config::configure_log("simulate", parser.common().log_level);
   lcm_io::install_signal_handlers();
   if (options.report) {
