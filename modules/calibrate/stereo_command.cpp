@@ -30,7 +30,7 @@ void declare(config::Section& section, Options& options) {
   declare(section, options.board);
   section.add("output", options.output, "calibration file to write (OpenCV YAML)");
   section.add("picture", options.picture,
-              "picture to draw of the covered area and the errors (PNG)");
+              "picture to draw of the covered area and the errors, .png or .jpg");
   section.add("views", options.completion.most_views, "",
               "from a video or camera, stop when so many views are taken, or earlier where nothing "
               "is missing",

@@ -34,7 +34,8 @@ void declare(config::Section& section, Options& options) {
   section.add("bodies", options.bodies,
               "count only persons whose body begins so, e.g. D4,D5 (needs --truth); default: all");
   section.add("json", options.json, "file to write all figures to as JSON");
-  section.add("picture", options.picture, "file to draw the distribution of the errors to (PNG)");
+  section.add("picture", options.picture,
+              "file to draw the distribution of the errors to, .png or .jpg");
   section.add_channel("channel", options.channel, "channel of the poses in the log");
   section.add_channel("tracked-channel", options.tracked_channel,
                       "channel of the tracked poses in the log, to compare with the poses");

@@ -154,7 +154,7 @@ TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
   expect_refusal({"--output", "c.yml", "--picture", "/none/c.png"},
                  "/none/c.png: there is no folder /none; make it or choose another --picture");
   expect_refusal({"--output", "c.yml", "--picture", "c.odt"},
-                 "c.odt: no picture format has this ending; use .png");
+                 "c.odt: pictures are written as .png or .jpg; choose such an ending");
   expect_refusal({"mounting", "--output", "/none/c.yml"},
                  "/none/c.yml: there is no folder /none; make it or choose another --output");
 }

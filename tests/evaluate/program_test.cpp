@@ -140,7 +140,8 @@ TEST(EvaluateProgram, RefusesFilesThatItCannotWriteBeforeItReadsAnything) {
   };
   EXPECT_THAT(refusal_of("--json", "/none/a.json"), HasSubstr("no folder /none; make it"));
   EXPECT_THAT(refusal_of("--picture", "/none/a.png"), HasSubstr("no folder /none; make it"));
-  EXPECT_THAT(refusal_of("--picture", "a.odt"), HasSubstr("a.odt: no picture format"));
+  EXPECT_THAT(refusal_of("--picture", "a.odt"),
+              HasSubstr("a.odt: pictures are written as .png or .jpg"));
 }
 
 TEST(EvaluateProgram, RefusesToWriteOverWhatItReads) {
