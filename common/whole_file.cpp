@@ -1,9 +1,13 @@
 #include "common/whole_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -19,6 +23,31 @@ void write(const fs::path& path, std::string_view bytes) {
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) throw std::system_error(errno, std::generic_category());
+}
+
+/// What the shell has opened as /dev/stdout or /dev/fd/3.
+std::optional<int> opened_descriptor(const std::string& path) {
+  const auto is_descriptor = [](const fs::path& place) {
+    std::error_code unreachable;
+    return fs::exists(place, unreachable) &&
+           fs::equivalent(place.parent_path(), "/proc/self/fd", unreachable);
+  };
+  std::error_code no_link;
+  fs::path place = path;
+  if (!is_descriptor(place)) place = fs::read_symlink(place, no_link);
+  if (!is_descriptor(place)) return std::nullopt;
+  return std::stoi(place.filename());
+}
+
+/// Behind what was written to it before: opened anew, by its name, a file would be written from its
+/// begin.
+void write(int descriptor, std::string_view bytes) {
+  std::fflush(stdout);
+  while (!bytes.empty()) {
+    const ssize_t size = ::write(descriptor, bytes.data(), bytes.size());
+    if (size < 0) throw std::system_error(errno, std::generic_category());
+    bytes.remove_prefix(static_cast<std::size_t>(size));
+  }
 }
 
 /// No file may take the place of a pipe, a terminal or /dev/null, nor of a file that the shell has
@@ -60,7 +89,10 @@ void write_beside(const fs::path& path, std::string_view bytes) {
 
 void write_whole_file(const std::string& path, std::string_view bytes) {
   try {
-    is_device(path) ? write(path, bytes) : write_beside(end_of_links(path), bytes);
+    if (const auto descriptor = opened_descriptor(path))
+      write(*descriptor, bytes);
+    else
+      is_device(path) ? write(path, bytes) : write_beside(end_of_links(path), bytes);
   } catch (const std::system_error& error) {
     throw std::runtime_error(path + ": cannot be written (" + std::strerror(error.code().value()) +
                              ")");

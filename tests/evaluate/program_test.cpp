@@ -182,6 +182,21 @@ TEST(EvaluateProgram, SaysThatItsReportCouldNotBeWritten) {
   EXPECT_EQ(line, "limbcast-evaluate: cannot write to stdout");
 }
 
+TEST(EvaluateProgram, WritesJsonBehindTheReportWhereBothGoToStdout) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  const std::string program = std::string(LIMBCAST_BIN_DIR) + "/limbcast-evaluate";
+  ASSERT_EQ(std::system((shell_quoted(program) + " " + shell_quoted(folder / "out.log") +
+                         " --brief --json /dev/stdout >" + shell_quoted(folder / "all"))
+                            .c_str()),
+            0);
+  std::ifstream all(folder / "all");
+  std::string line;
+  std::getline(all, line);
+  EXPECT_THAT(line, StartsWith("accuracy on 2 frames:"));
+  EXPECT_EQ(nlohmann::json::parse(all)["frames"], 2);
+}
+
 TEST(EvaluateProgram, JudgesALogOfARoomWithoutPeople) {
   const TemporaryFolder folder;
   lcm_io::LogWriter log(folder / "out.log");
