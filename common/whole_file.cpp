@@ -64,6 +64,8 @@ fs::path end_of_links(const fs::path& path) {
   return leads_nowhere ? path : end;
 }
 
+std::string unfinished_beside(const fs::path& path) { return path.string() + ".unfinished"; }
+
 /// A file may be the user's in a folder that is not, and none takes the place of one that a
 /// container has mounted.
 bool can_only_be_overwritten(const std::system_error& error) {
@@ -73,7 +75,7 @@ bool can_only_be_overwritten(const std::system_error& error) {
 
 /// Under another name beside it until it is whole, where that can be.
 void write_beside(const fs::path& path, std::string_view bytes) {
-  const fs::path unfinished = path.string() + ".unfinished";
+  const fs::path unfinished = unfinished_beside(path);
   try {
     write(unfinished, bytes);
     fs::rename(unfinished, path);
@@ -102,6 +104,23 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
 void write_whole_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
   write_whole_file(path,
                    std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string unfinished_file(const std::string& path) {
+  if (is_device(path)) return path;
+  const fs::path end = end_of_links(path);
+  const fs::path folder = end.has_parent_path() ? end.parent_path() : ".";
+  return access(folder.c_str(), W_OK) == 0 ? unfinished_beside(end) : path;
+}
+
+void finish_file(const std::string& path) {
+  const std::string unfinished = unfinished_file(path);
+  if (unfinished == path) return;
+  std::error_code error;
+  fs::rename(unfinished, end_of_links(path), error);
+  if (error)
+    throw std::runtime_error(path + ": cannot be written (" + error.message() + "); " + unfinished +
+                             " holds it");
 }
 
 }  // namespace limbcast
