@@ -131,7 +131,9 @@ void play_log(const std::string& module_name, const SourceProcessOptions& option
     const Round round = player.play(offset_us);
     if (round.frames == 0 && !lcm_io::stop_requested())
       throw InputError(options.source.source + ": holds no frame on " + channels.frames +
-                       (round.channels.empty() ? "" : " but " + joined(round.channels)));
+                       (round.channels.empty() ? "" : " but " + joined(round.channels)) +
+                       "; choose their channel with --images-channel, or play other messages "
+                       "with lcm-logplayer");
     frames += round.frames;
     const double pause_s =
         1.0 / (options.source.rate_hz > 0.0 ? options.source.rate_hz : kDefaultRate_hz);
