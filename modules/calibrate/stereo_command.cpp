@@ -46,7 +46,7 @@ class Hints {
     constexpr std::chrono::seconds kPeriod{2};
     const auto now = std::chrono::steady_clock::now();
     if (now - told_at_ < kPeriod) return;
-    config::log(config::LogLevel::kInfo, frame.name + ": " + frame.reason);
+    config::log(config::LogLevel::kInfo, frame.name + ": " + frame.reason.text);
     told_at_ = now;
   }
 
@@ -105,6 +105,7 @@ bool calibrate(const Options& options) {
   const ViewCollector collector = in_sequence(options.source.source)
                                       ? collect_from_video(options, board)
                                       : collect_shots(options.source, board);
+  check_enough(collector.views(), collector.rejected());
   const StereoFit fit = fit_stereo(collector.views(), board, collector.image_size());
   print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
   print_advice(advise(fit, collector.image_size()));

@@ -24,7 +24,9 @@ TEST(CalibrateProgram, RefusesPicturesWithoutBoard) {
   const Outcome outcome = run_program(
       "limbcast-calibrate", {"--source", folder.path(), "--output", folder / "calibration.yml"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("only 0 good views of the board"));
+  EXPECT_THAT(outcome.err, HasSubstr("only 0 good views of the board, at least 5 are needed, 15 to "
+                                     "30 are better; the others: board not found in the left image "
+                                     "(1); do --board, --columns and --rows describe the board?"));
   EXPECT_FALSE(fs::exists(folder / "calibration.yml"));
 }
 
