@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/program_options.hpp>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -62,6 +63,16 @@ OptionName section_and_key(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos) return {"", name};
   return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// What is said of a line of a configuration file that sets nothing.
+std::string why_no_setting(const std::string& line) {
+  // Bytes of a picture or log are none to print.
+  const bool is_text = std::none_of(line.begin(), line.end(), [](unsigned char c) {
+    return std::iscntrl(c) != 0 && std::isspace(c) == 0;
+  });
+  return is_text ? "'" + line + "' is neither [MODULE] nor KEY = VALUE"
+                 : "is no text; give a configuration file to --config";
 }
 
 }  // namespace
@@ -231,6 +242,9 @@ void Parser::read_config_file(const std::string& path) {
   try {
     parsed =
         po::parse_config_file(settings, po::options_description(), /*allow_unregistered=*/true);
+  } catch (const po::invalid_config_file_syntax& error) {
+    throw UsageError(path + ": " + why_no_setting(error.tokens()) + "; see " + program_ +
+                     " --help");
   } catch (const po::error& error) {
     throw UsageError(path + ": " + error.what());
   }
@@ -247,6 +261,9 @@ void Parser::read_config_file(const std::string& path) {
                          "]; sections are named like modules");
       continue;
     }
+    // A file would name a file that nobody reads.
+    if (key == "config")
+      throw UsageError(path + ": 'config' is for the command line; leave it out");
     const std::string full_key = section.empty() ? key : section + "." + key;
     const auto overridden = [&](const std::string& name) {
       return std::find(on_command_line_.begin(), on_command_line_.end(), name) !=
