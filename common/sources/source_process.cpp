@@ -130,7 +130,7 @@ void require_end(const SourceProcessOptions& options) {
 
 void declare_playback(config::Section& section, SourceProcessOptions& options) {
   section.add_name("sensor", options.sensor, "name of the sensor in all messages");
-  section.add("log", options.log, "write this LCM log instead of publishing");
+  section.add_name("log", options.log, "write this LCM log instead of publishing");
   section.add("rate", options.source.rate_hz, "frames/s",
               "send at this rate; 0: as recorded, or 10 where no times are recorded",
               {0.0, 1000.0});

@@ -29,8 +29,8 @@ void declare(config::Section& section, Options& options) {
   declare_source(section, options.source);
   declare(section, options.board);
   section.add("output", options.output, "calibration file to write (OpenCV YAML)");
-  section.add("picture", options.picture,
-              "picture to draw of the covered area and the errors, .png or .jpg");
+  section.add_name("picture", options.picture,
+                   "picture to draw of the covered area and the errors, .png or .jpg");
   section.add("views", options.completion.most_views, "",
               "from a video or camera, stop when so many views are taken, or earlier where nothing "
               "is missing",
@@ -138,6 +138,7 @@ bool run_stereo(int argc, const char* const* argv) {
   const std::vector<std::string> inputs = pictures_read(options.source);
   config::check_output_file("--output", options.output, inputs);
   config::check_output_file("--picture", options.picture, inputs);
+  config::check_outputs_differ("--picture", options.picture, "--output", options.output);
   check_picture_ending(options.picture);
   return calibrate(options);
 }

@@ -33,9 +33,9 @@ void declare(config::Section& section, Options& options) {
               "folders with NAME_gt.json, separated by commas; default: the truth in the log");
   section.add("bodies", options.bodies,
               "count only persons whose body begins so, e.g. D4,D5 (needs --truth); default: all");
-  section.add("json", options.json, "file to write all figures to as JSON");
-  section.add("picture", options.picture,
-              "file to draw the distribution of the errors to, .png or .jpg");
+  section.add_name("json", options.json, "file to write all figures to as JSON");
+  section.add_name("picture", options.picture,
+                   "file to draw the distribution of the errors to, .png or .jpg");
   section.add_channel("channel", options.channel, "channel of the poses in the log");
   section.add_channel("tracked-channel", options.tracked_channel,
                       "channel of the tracked poses in the log, to compare with the poses");
@@ -55,6 +55,7 @@ void check(const Options& options) {
   inputs.insert(inputs.end(), {options.log, options.poses});
   config::check_output_file("--json", options.json, inputs);
   config::check_output_file("--picture", options.picture, inputs);
+  config::check_outputs_differ("--picture", options.picture, "--json", options.json);
   check_picture_ending(options.picture);
 }
 

@@ -31,9 +31,9 @@ void refuse_idle_options(const SimulateOptions& options) {
 
 void declare(config::Section& section, SimulateOptions& options) {
   SimulatorParams& params = options.params;
-  section.add("output", options.output, "folder to write the frames to");
-  section.add("log", options.log,
-              "LCM log to write; without folder and log the frames go out live");
+  section.add_name("output", options.output, "folder to write the frames to");
+  section.add_name("log", options.log,
+                   "LCM log to write; without folder and log the frames go out live");
   section.add("rate", options.rate_hz, "frames/s", "of live frames", {0.1, 1000.0});
   section.add("loop", options.loop, "live: start again at the end");
   section.add("sensor-name", options.sensor_name, "name of the sensor in all messages");

@@ -41,8 +41,8 @@ struct Options {
 };
 
 void declare(config::Section& section, Options& options) {
-  section.add("png", options.png, "folder to write pictures to; default: a window");
-  section.add("video", options.video, "file to write the sheets to as a video, .avi or .mp4");
+  section.add_name("png", options.png, "folder to write pictures to; default: a window");
+  section.add_name("video", options.video, "file to write the sheets to as a video, .avi or .mp4");
   section.add("every", options.every, "", "draw every n-th frame only", {1, 1000000});
   section.add("max", options.max, "", "end after so many frames, 0 = all", {0, 1000000000});
   section.add("rate", options.rate_hz, "frames/s", "speed of the video, and of a log in a window",

@@ -155,6 +155,8 @@ TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
                  "/none/c.yml: there is no folder /none; make it or choose another --output");
   expect_refusal({"--output", "c.yml", "--picture", "/none/c.png"},
                  "/none/c.png: there is no folder /none; make it or choose another --picture");
+  expect_refusal({"--output", "c.png", "--picture", "c.png"},
+                 "c.png: is what --output writes; choose another --picture");
   expect_refusal({"--output", "c.yml", "--picture", "c.odt"},
                  "c.odt: pictures are written as .png or .jpg; choose such an ending");
   expect_refusal({"mounting", "--output", "/none/c.yml"},

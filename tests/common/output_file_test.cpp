@@ -66,6 +66,16 @@ TEST(OutputFile, IsRefusedWhereTheUserMayNotWrite) {
               HasSubstr("/a.yml: cannot be written (Permission denied); choose another --output"));
 }
 
+TEST(OutputFile, IsRefusedWhereAnotherOptionWritesIt) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(test::error_of<UsageError>([&] {
+              check_outputs_differ("--picture", folder / "./a.png", "--json", folder / "a.png");
+            }),
+            folder / "./a.png" + ": is what --json writes; choose another --picture");
+  EXPECT_NO_THROW(check_outputs_differ("--picture", folder / "a.png", "--json", folder / "a.json"));
+  EXPECT_NO_THROW(check_outputs_differ("--picture", "", "--json", ""));
+}
+
 TEST(OutputFolder, IsMadeWithThoseAboveIt) {
   const TemporaryFolder folder;
   make_output_folder("--output", folder / "a/b");

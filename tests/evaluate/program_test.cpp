@@ -140,6 +140,8 @@ TEST(EvaluateProgram, RefusesFilesThatItCannotWriteBeforeItReadsAnything) {
   };
   EXPECT_THAT(refusal_of("--json", "/none/a.json"), HasSubstr("no folder /none; make it"));
   EXPECT_THAT(refusal_of("--picture", "/none/a.png"), HasSubstr("no folder /none; make it"));
+  EXPECT_THAT(evaluate_program({"/none.log", "--json", "a.png", "--picture", "a.png"}).err,
+              HasSubstr("a.png: is what --json writes; choose another --picture"));
   EXPECT_THAT(refusal_of("--picture", "a.odt"),
               HasSubstr("a.odt: pictures are written as .png or .jpg"));
 }

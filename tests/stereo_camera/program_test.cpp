@@ -174,9 +174,9 @@ TEST_F(StereoCameraProgram, NamesTheChannelsOfALogWithoutPairs) {
                                               "other messages with lcm-logplayer\n"));
 }
 
-TEST_F(StereoCameraProgram, EndsWithCode2OnNamesThatMessagesCannotHave) {
+TEST_F(StereoCameraProgram, EndsWithCode2OnNamesThatMessagesAndFilesCannotHave) {
   write_pairs(folder_, 1, 100'000);
-  for (const char* option : {"--sensor", "--images-channel", "--truth-channel"}) {
+  for (const char* option : {"--sensor", "--images-channel", "--truth-channel", "--log"}) {
     const RunResult result = write_log({"--source", folder_, option, ""});
     EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
     EXPECT_THAT(result.output, HasSubstr("is '', must be a name"));
