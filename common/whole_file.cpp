@@ -1,9 +1,13 @@
 #include "common/whole_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -21,6 +25,31 @@ void write(const fs::path& path, std::string_view bytes) {
   if (!file) throw std::system_error(errno, std::generic_category());
 }
 
+/// What the shell has opened as /dev/stdout or /dev/fd/3.
+std::optional<int> opened_descriptor(const std::string& path) {
+  const auto is_descriptor = [](const fs::path& place) {
+    std::error_code unreachable;
+    return fs::exists(place, unreachable) &&
+           fs::equivalent(place.parent_path(), "/proc/self/fd", unreachable);
+  };
+  std::error_code no_link;
+  fs::path place = path;
+  if (!is_descriptor(place)) place = fs::read_symlink(place, no_link);
+  if (!is_descriptor(place)) return std::nullopt;
+  return std::stoi(place.filename());
+}
+
+/// Behind what was written to it before: opened anew, by its name, a file would be written from its
+/// begin.
+void write(int descriptor, std::string_view bytes) {
+  std::fflush(stdout);
+  while (!bytes.empty()) {
+    const ssize_t size = ::write(descriptor, bytes.data(), bytes.size());
+    if (size < 0) throw std::system_error(errno, std::generic_category());
+    bytes.remove_prefix(static_cast<std::size_t>(size));
+  }
+}
+
 /// No file may take the place of a pipe, a terminal or /dev/null, nor of a file that the shell has
 /// opened as /dev/stdout.
 bool is_device(const std::string& path) {
@@ -35,6 +64,8 @@ fs::path end_of_links(const fs::path& path) {
   return leads_nowhere ? path : end;
 }
 
+std::string unfinished_beside(const fs::path& path) { return path.string() + ".unfinished"; }
+
 /// A file may be the user's in a folder that is not, and none takes the place of one that a
 /// container has mounted.
 bool can_only_be_overwritten(const std::system_error& error) {
@@ -44,7 +75,7 @@ bool can_only_be_overwritten(const std::system_error& error) {
 
 /// Under another name beside it until it is whole, where that can be.
 void write_beside(const fs::path& path, std::string_view bytes) {
-  const fs::path unfinished = path.string() + ".unfinished";
+  const fs::path unfinished = unfinished_beside(path);
   try {
     write(unfinished, bytes);
     fs::rename(unfinished, path);
@@ -60,7 +91,10 @@ void write_beside(const fs::path& path, std::string_view bytes) {
 
 void write_whole_file(const std::string& path, std::string_view bytes) {
   try {
-    is_device(path) ? write(path, bytes) : write_beside(end_of_links(path), bytes);
+    if (const auto descriptor = opened_descriptor(path))
+      write(*descriptor, bytes);
+    else
+      is_device(path) ? write(path, bytes) : write_beside(end_of_links(path), bytes);
   } catch (const std::system_error& error) {
     throw std::runtime_error(path + ": cannot be written (" + std::strerror(error.code().value()) +
                              ")");
@@ -70,6 +104,23 @@ void write_whole_file(const std::string& path, std::string_view bytes) {
 void write_whole_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
   write_whole_file(path,
                    std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string unfinished_file(const std::string& path) {
+  if (is_device(path)) return path;
+  const fs::path end = end_of_links(path);
+  const fs::path folder = end.has_parent_path() ? end.parent_path() : ".";
+  return access(folder.c_str(), W_OK) == 0 ? unfinished_beside(end) : path;
+}
+
+void finish_file(const std::string& path) {
+  const std::string unfinished = unfinished_file(path);
+  if (unfinished == path) return;
+  std::error_code error;
+  fs::rename(unfinished, end_of_links(path), error);
+  if (error)
+    throw std::runtime_error(path + ": cannot be written (" + error.message() + "); " + unfinished +
+                             " holds it");
 }
 
 }  // namespace limbcast

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
@@ -10,8 +11,10 @@
 namespace limbcast {
 
 void check_picture_ending(const std::string& path) {
-  if (!path.empty() && !cv::haveImageWriter(path))
-    throw InputError(path + ": no picture format has this ending; use .png");
+  // OpenCV knows more, and of some it says only when a picture is done that it takes no colours.
+  static const std::set<std::string> endings = {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"};
+  if (!path.empty() && endings.count(std::filesystem::path(path).extension().string()) == 0)
+    throw InputError(path + ": pictures are written as .png or .jpg; choose such an ending");
 }
 
 void write_picture(const std::string& path, const cv::Mat& image, const std::vector<int>& params) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/program_options.hpp>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +22,7 @@
 #include "common/config/log.hpp"
 #include "common/config/version.hpp"
 #include "common/input_file.hpp"
+#include "common/joined.hpp"
 
 namespace limbcast::config {
 namespace {
@@ -61,6 +63,16 @@ OptionName section_and_key(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos) return {"", name};
   return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// What is said of a line of a configuration file that sets nothing.
+std::string why_no_setting(const std::string& line) {
+  // Bytes of a picture or log are none to print.
+  const bool is_text = std::none_of(line.begin(), line.end(), [](unsigned char c) {
+    return std::iscntrl(c) != 0 && std::isspace(c) == 0;
+  });
+  return is_text ? "'" + line + "' is neither [MODULE] nor KEY = VALUE"
+                 : "is no text; give a configuration file to --config";
 }
 
 }  // namespace
@@ -116,6 +128,13 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
 bool Parser::on_command_line(const std::string& key) const {
   return std::any_of(on_command_line_.begin(), on_command_line_.end(),
                      [&key](const std::string& name) { return section_and_key(name).key == key; });
+}
+
+std::string Parser::on_command_line(const std::vector<std::string>& keys) const {
+  std::vector<std::string> given;
+  for (const std::string& key : keys)
+    if (on_command_line(key)) given.push_back(key);
+  return joined(given);
 }
 
 std::vector<Parser::Given> Parser::read_command_line(int argc, const char* const* argv) const {
@@ -223,6 +242,9 @@ void Parser::read_config_file(const std::string& path) {
   try {
     parsed =
         po::parse_config_file(settings, po::options_description(), /*allow_unregistered=*/true);
+  } catch (const po::invalid_config_file_syntax& error) {
+    throw UsageError(path + ": " + why_no_setting(error.tokens()) + "; see " + program_ +
+                     " --help");
   } catch (const po::error& error) {
     throw UsageError(path + ": " + error.what());
   }
@@ -239,6 +261,9 @@ void Parser::read_config_file(const std::string& path) {
                          "]; sections are named like modules");
       continue;
     }
+    // A file would name a file that nobody reads.
+    if (key == "config")
+      throw UsageError(path + ": 'config' is for the command line; leave it out");
     const std::string full_key = section.empty() ? key : section + "." + key;
     const auto overridden = [&](const std::string& name) {
       return std::find(on_command_line_.begin(), on_command_line_.end(), name) !=

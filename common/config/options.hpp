@@ -47,6 +47,8 @@ class Parser {
   const CommonOptions& common() const { return common_; }
   /// Did an option of this key stand on the command line, with or without its section?
   bool on_command_line(const std::string& key) const;
+  /// Those of these keys that did, separated by commas.
+  std::string on_command_line(const std::vector<std::string>& keys) const;
 
  private:
   struct Positional {

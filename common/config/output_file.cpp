@@ -40,4 +40,19 @@ void check_output_file(const std::string& option, const std::string& path,
                      option);
 }
 
+void check_outputs_differ(const std::string& option, const std::string& path,
+                          const std::string& other_option, const std::string& other_path) {
+  if (path.empty() || other_path.empty()) return;
+  if (fs::weakly_canonical(path) == fs::weakly_canonical(other_path))
+    throw UsageError(path + ": is what " + other_option + " writes; choose another " + option);
+}
+
+void make_output_folder(const std::string& option, const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (fs::is_directory(path, error)) return;
+  if (fs::exists(path, error)) throw UsageError(path + ": is no folder; give one to " + option);
+  throw UsageError(path + ": cannot be made; choose another " + option);
+}
+
 }  // namespace limbcast::config

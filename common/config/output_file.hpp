@@ -12,4 +12,12 @@ namespace limbcast::config {
 void check_output_file(const std::string& option, const std::string& path,
                        const std::vector<std::string>& inputs = {});
 
+/// Throws UsageError where two options give the same file: one would be written over the other.
+void check_outputs_differ(const std::string& option, const std::string& path,
+                          const std::string& other_option, const std::string& other_path);
+
+/// Makes the folder that the user gave to `option` where it is missing. Throws UsageError where
+/// that is not possible.
+void make_output_folder(const std::string& option, const std::string& path);
+
 }  // namespace limbcast::config

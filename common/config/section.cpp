@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/joined.hpp"
+
 namespace limbcast::config {
 namespace {
 
@@ -111,9 +113,7 @@ void Section::add(const std::string& key, bool& target, const std::string& help)
 
 void Section::add_choice(const std::string& key, std::string& target,
                          const std::vector<std::string>& choices, const std::string& help) {
-  std::string allowed;
-  for (const std::string& choice : choices) allowed += (allowed.empty() ? "" : ", ") + choice;
-  entries_.push_back({key, "", help, target, "one of " + allowed, false,
+  entries_.push_back({key, "", help, target, "one of " + joined(choices), false,
                       [&target, choices](const std::string& text) {
                         if (std::find(choices.begin(), choices.end(), text) == choices.end())
                           throw std::invalid_argument(text);

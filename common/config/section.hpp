@@ -45,7 +45,8 @@ class Section {
   void add(const std::string& key, int& target, const std::string& unit, const std::string& help,
            Range<int> range = {});
   void add(const std::string& key, std::string& target, const std::string& help);
-  /// A text that must not be empty.
+  /// A text that must not be empty: were a file to write empty, as a shell's variable that is not
+  /// set, nothing would be written and nobody told.
   void add_name(const std::string& key, std::string& target, const std::string& help);
   /// The name of an LCM channel.
   void add_channel(const std::string& key, std::string& target, const std::string& help);

@@ -234,8 +234,9 @@ module_status_t Module::make_status(double period_s) {
 
 void Module::send_status(double period_s) {
   const module_status_t status = make_status(period_s);
-  publish(kStatusChannel, status);
+  // Logged first: whoever hears the status may end the program, whose last line is another.
   if (status.state != kWaiting) config::log(config::LogLevel::kInfo, summary(status));
+  publish(kStatusChannel, status);
 }
 
 }  // namespace limbcast::lcm_io

@@ -3,6 +3,7 @@
 #include <limbcast/body_poses_t.hpp>
 
 #include "common/config/log.hpp"
+#include "common/joined.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
@@ -14,7 +15,11 @@ PoseLogSummary visit_poses(const std::string& log, const std::string& channel,
   PoseLogSummary summary;
   LogReader reader(log);
   while (const auto event = reader.next()) {
-    if (event->channel != channel) continue;
+    if (event->channel != channel) {
+      if (fingerprint_of(event->data) == body_poses_t::getHash())
+        summary.other_channels.insert(event->channel);
+      continue;
+    }
     BodyPoses poses;
     try {
       poses = from_message(decode<body_poses_t>(event->data));
@@ -36,6 +41,14 @@ void warn_about(const PoseLogSummary& summary, const std::string& log, const std
                                         " malformed messages on " + channel +
                                         " dropped; the first: " + summary.first_problem);
   if (summary.torn_bytes > 0) config::log(LogLevel::kWarning, torn_end(log, summary.torn_bytes));
+}
+
+std::string no_poses_on(const std::string& channel, const std::string& log,
+                        const std::set<std::string>& others) {
+  const std::string remedy = "limbcast-replay adds them (tracked ones with --tracker)";
+  return log + ": holds no poses on " + channel +
+         (others.empty() ? "; " + remedy
+                         : " but on " + joined(others) + "; choose such a channel, or " + remedy);
 }
 
 }  // namespace limbcast::lcm_io

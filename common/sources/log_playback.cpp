@@ -15,6 +15,7 @@
 
 #include "common/config/log.hpp"
 #include "common/input_error.hpp"
+#include "common/joined.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/sources/pacer.hpp"
 #include "common/units.hpp"
@@ -101,12 +102,6 @@ class LogPlayer {
   std::int64_t recorded_utime_ = 0, sent_utime_ = 0, sent_sequence_ = 0;
 };
 
-std::string list_of(const std::set<std::string>& channels) {
-  std::string text;
-  for (const std::string& channel : channels) text += (text.empty() ? "" : ", ") + channel;
-  return text;
-}
-
 }  // namespace
 
 bool is_lcm_log(const std::string& source) {
@@ -136,7 +131,9 @@ void play_log(const std::string& module_name, const SourceProcessOptions& option
     const Round round = player.play(offset_us);
     if (round.frames == 0 && !lcm_io::stop_requested())
       throw InputError(options.source.source + ": holds no frame on " + channels.frames +
-                       (round.channels.empty() ? "" : " but " + list_of(round.channels)));
+                       (round.channels.empty() ? "" : " but " + joined(round.channels)) +
+                       "; choose their channel with --images-channel, or play other messages "
+                       "with lcm-logplayer");
     frames += round.frames;
     const double pause_s =
         1.0 / (options.source.rate_hz > 0.0 ? options.source.rate_hz : kDefaultRate_hz);

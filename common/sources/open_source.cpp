@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
 #include "common/input_error.hpp"
 #include "common/sources/folder_source.hpp"
@@ -92,8 +93,14 @@ std::unique_ptr<PairSource> open_source(const SourceOptions& options, const Pair
         ": does not exist; give a folder of pictures, an LCM log, a video file, /dev/videoN, "
         "gst:PIPELINE or a stream's URL");
   }
+  // By its ending: a stream of MJPEG begins as a picture does.
+  if (cv::haveImageWriter(options.source)) {
+    throw InputError(options.source +
+                     ": is one picture; give its folder, an LCM log, a video file or a camera");
+  }
   if (format.second_is_depth) {
-    throw InputError(options.source + ": is no folder; videos cannot hold 16-bit depth");
+    throw InputError(options.source + ": is neither a folder nor an LCM log, and videos cannot " +
+                     "hold 16-bit depth; give a folder of pictures, a log or cameras");
   }
   return std::make_unique<VideoSource>(
       options.source, options.second_source, format,

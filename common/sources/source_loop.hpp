@@ -11,6 +11,7 @@
 #include "common/sources/frame_source.hpp"
 #include "common/sources/pacer.hpp"
 #include "common/sources/source_process.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast {
 
@@ -69,23 +70,33 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
 
 template <class Frame>
 void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std::string& path) {
+  // An earlier log is kept until this one is whole.
+  const std::string unfinished = unfinished_file(path);
+  const std::string what_is_left = unfinished + " holds what was sent so far";
   std::optional<lcm_io::LogWriter> log;
-  while (!source.ended() && !lcm_io::stop_requested()) {
-    std::optional<Frame> frame = source.next();
-    if (!frame) continue;
-    // Not before: an earlier log is kept where the source has nothing to put in its place.
-    if (!log) log.emplace(path);
-    Outlet outlet(*log);
-    sender.send(outlet, std::move(*frame));
+  try {
+    while (!source.ended() && !lcm_io::stop_requested()) {
+      std::optional<Frame> frame = source.next();
+      if (!frame) continue;
+      if (!log) log.emplace(unfinished);
+      Outlet outlet(*log);
+      sender.send(outlet, std::move(*frame));
+    }
+  } catch (...) {
+    if (log) config::log(config::LogLevel::kWarning, what_is_left);
+    throw;
   }
   if (!source.problem().empty()) config::log(config::LogLevel::kError, source.problem());
   if (log) log->close();
   // A live source has no end: to be told to is how its recording is complete.
-  if (source.ended() || source.live()) return;
+  if (source.ended() || source.live()) {
+    if (!log) throw std::runtime_error(path + ": was not written, as no frame came");
+    return finish_file(path);
+  }
   const std::optional<std::int64_t> num_frames = source.num_frames();
   throw std::runtime_error("interrupted: " + std::to_string(sender.num_sent()) +
                            (num_frames ? " of " + std::to_string(*num_frames) : "") + " frames; " +
-                           path + (log ? " holds what was sent so far" : " was not written"));
+                           (log ? what_is_left : path + " was not written"));
 }
 
 /// Sends the frames of the source until it ends or the program is told to: a recording at its rate,

@@ -101,9 +101,7 @@ void require_input(const SourceProcessOptions& options, const std::string& progr
 
 void refuse_live_options(const std::string& recording, const std::vector<std::string>& keys,
                          const config::Parser& parser) {
-  std::string given;
-  for (const std::string& key : keys)
-    if (parser.on_command_line(key)) given += (given.empty() ? "" : ", ") + key;
+  const std::string given = parser.on_command_line(keys);
   if (!given.empty())
     throw config::UsageError(recording + ": is a recording; leave out " + given +
                              " (for live sensors only)");
@@ -132,7 +130,7 @@ void require_end(const SourceProcessOptions& options) {
 
 void declare_playback(config::Section& section, SourceProcessOptions& options) {
   section.add_name("sensor", options.sensor, "name of the sensor in all messages");
-  section.add("log", options.log, "write this LCM log instead of publishing");
+  section.add_name("log", options.log, "write this LCM log instead of publishing");
   section.add("rate", options.source.rate_hz, "frames/s",
               "send at this rate; 0: as recorded, or 10 where no times are recorded",
               {0.0, 1000.0});

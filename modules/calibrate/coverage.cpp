@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/formatted.hpp"
+#include "common/joined.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -28,12 +29,6 @@ std::vector<std::string> empty_regions(const cv::Mat& covered, double min_share)
       names.emplace_back(kRegionNames[i]);
   }
   return names;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
 }
 
 int count_views(const std::vector<ViewFit>& figures,

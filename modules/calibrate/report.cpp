@@ -35,7 +35,7 @@ std::string view_table(const std::vector<ViewFit>& figures) {
 std::string rejected_table(const std::vector<RejectedView>& rejected) {
   std::string table;
   for (const RejectedView& view : rejected)
-    table += formatted("%-20s  rejected: %s\n", view.name.c_str(), view.reason.c_str());
+    table += formatted("%-20s  rejected: %s\n", view.name.c_str(), view.reason.text.c_str());
   return table;
 }
 

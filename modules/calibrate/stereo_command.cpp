@@ -29,8 +29,8 @@ void declare(config::Section& section, Options& options) {
   declare_source(section, options.source);
   declare(section, options.board);
   section.add("output", options.output, "calibration file to write (OpenCV YAML)");
-  section.add("picture", options.picture,
-              "picture to draw of the covered area and the errors (PNG)");
+  section.add_name("picture", options.picture,
+                   "picture to draw of the covered area and the errors, .png or .jpg");
   section.add("views", options.completion.most_views, "",
               "from a video or camera, stop when so many views are taken, or earlier where nothing "
               "is missing",
@@ -46,7 +46,7 @@ class Hints {
     constexpr std::chrono::seconds kPeriod{2};
     const auto now = std::chrono::steady_clock::now();
     if (now - told_at_ < kPeriod) return;
-    config::log(config::LogLevel::kInfo, frame.name + ": " + frame.reason);
+    config::log(config::LogLevel::kInfo, frame.name + ": " + frame.reason.text);
     told_at_ = now;
   }
 
@@ -105,6 +105,7 @@ bool calibrate(const Options& options) {
   const ViewCollector collector = in_sequence(options.source.source)
                                       ? collect_from_video(options, board)
                                       : collect_shots(options.source, board);
+  check_enough(collector.views(), collector.rejected());
   const StereoFit fit = fit_stereo(collector.views(), board, collector.image_size());
   print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
   print_advice(advise(fit, collector.image_size()));
@@ -137,6 +138,7 @@ bool run_stereo(int argc, const char* const* argv) {
   const std::vector<std::string> inputs = pictures_read(options.source);
   config::check_output_file("--output", options.output, inputs);
   config::check_output_file("--picture", options.picture, inputs);
+  config::check_outputs_differ("--picture", options.picture, "--output", options.output);
   check_picture_ending(options.picture);
   return calibrate(options);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
@@ -10,6 +11,7 @@
 #include "common/camera/calibration_checks.hpp"
 #include "common/camera/opencv_conversion.hpp"
 #include "common/formatted.hpp"
+#include "common/joined.hpp"
 #include "common/median.hpp"
 #include "common/units.hpp"
 #include "modules/reconstructor/rectifier.hpp"
@@ -201,12 +203,12 @@ Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params)
   return worst;
 }
 
-void check_enough(std::size_t num_views, const FitParams& params) {
-  if (static_cast<int>(num_views) >= params.min_views) return;
-  throw std::runtime_error(
-      formatted("only %zu good views of the board, at least %d are needed, 15 to 30 are better; do "
-                "--board, --columns and --rows describe the board?",
-                num_views, params.min_views));
+/// "; the others: the board moves (11), blurred (1)"
+std::string text_of(const std::map<std::string, int>& others) {
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : others)
+    kinds.push_back(formatted("%s (%d)", kind.c_str(), count));
+  return others.empty() ? "" : "; the others: " + joined(kinds);
 }
 
 int count_tilted(const std::vector<ViewFit>& figures, double tilt_deg) {
@@ -250,11 +252,25 @@ std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels
   return result;
 }
 
+void check_enough(const std::vector<View>& views, const std::vector<RejectedView>& rejected,
+                  const FitParams& params) {
+  if (static_cast<int>(views.size()) >= params.min_views) return;
+  std::map<std::string, int> others;
+  for (const RejectedView& view : rejected) ++others[view.reason.kind];
+  throw std::runtime_error(
+      formatted("only %zu good views of the board, at least %d are needed, 15 to 30 are better%s; ",
+                views.size(), params.min_views, text_of(others).c_str()) +
+      (others.count(kBoardMoves) > 0
+           ? "hold it still at each place; of a log of single shots give the folder that "
+             "limbcast-log extract writes"
+           : "do --board, --columns and --rows describe the board?"));
+}
+
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      const FitParams& params) {
-  check_enough(views.size(), params);
   std::vector<View> kept = views;
   std::vector<RejectedView> outliers;
+  check_enough(kept, outliers, params);
   while (true) {
     StereoFit fit = fit_once(kept, board, image_size);
     const Outlier outlier = worst_view(fit.figures, params);
@@ -262,9 +278,10 @@ StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const c
       fit.outliers = std::move(outliers);
       return fit;
     }
-    outliers.push_back({kept[outlier.index].name, outlier.reason});
+    outliers.push_back(
+        {kept[outlier.index].name, {"does not fit with the others", outlier.reason}});
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(outlier.index));
-    check_enough(kept.size(), params);
+    check_enough(kept, outliers, params);
   }
 }
 

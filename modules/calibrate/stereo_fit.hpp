@@ -44,6 +44,11 @@ struct StereoFit {
   LensUncertainty left, right;
 };
 
+/// Throws std::runtime_error, with the reasons why others were rejected, where there are too few
+/// views.
+void check_enough(const std::vector<View>& views, const std::vector<RejectedView>& rejected,
+                  const FitParams& params = {});
+
 /// Lenses and pose of a stereo pair from views of a board (Zhang 2000; cv::calibrateCamera for each
 /// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
 /// one is an outlier. Throws std::runtime_error where there are too few views.

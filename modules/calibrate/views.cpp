@@ -31,7 +31,9 @@ double shift_px(const View& a, const View& b) {
   return std::max(mean_distance_px(a.left, b.left), mean_distance_px(a.right, b.right));
 }
 
-std::string stands_as_in(const View& taken) { return "stands where it stood in " + taken.name; }
+Reason stands_as_in(const View& taken) {
+  return {"the board stands where it stood", "stands where it stood in " + taken.name};
+}
 
 /// Both about their own middle.
 void centre(CommonPoints& common) {
@@ -58,8 +60,9 @@ double shape_change(const BoardPoints& a, const BoardPoints& b) {
   return std::sqrt(differences / sizes);
 }
 
-std::string not_found_in(const char* side) {
-  return formatted("board not found in the %s image", side);
+Reason not_found_in(const char* side) {
+  const std::string text = formatted("board not found in the %s image", side);
+  return {text, text};
 }
 
 }  // namespace
@@ -83,11 +86,11 @@ CommonPoints common_points(const BoardPoints& left, const BoardPoints& right) {
 bool ViewCollector::add(const GreyPair& pair) {
   check_size(pair);
   // Finding the points exactly takes some tenths of a second, too long for each frame of a camera.
-  std::string reason = in_sequence_ ? why_wait(pair) : "";
+  Reason reason = in_sequence_ ? why_wait(pair) : Reason{};
   std::optional<View> view;
-  if (reason.empty()) reason = find_view(pair, view);
-  if (reason.empty() && !in_sequence_) reason = why_no_new_shot(*view);
-  if (!reason.empty()) {
+  if (reason.text.empty()) reason = find_view(pair, view);
+  if (reason.text.empty() && !in_sequence_) reason = why_no_new_shot(*view);
+  if (!reason.text.empty()) {
     rejected_.push_back({pair.name, reason});
     return false;
   }
@@ -106,7 +109,7 @@ void ViewCollector::check_size(const GreyPair& pair) {
 }
 
 /// Why a frame of a video is not worth a closer look, empty where it is.
-std::string ViewCollector::why_wait(const GreyPair& pair) {
+Reason ViewCollector::why_wait(const GreyPair& pair) {
   std::optional<BoardPoints> left = glimpse_board(pair.left, board_);
   std::optional<BoardPoints> right = left ? glimpse_board(pair.right, board_) : std::nullopt;
   if (!right) {
@@ -115,35 +118,36 @@ std::string ViewCollector::why_wait(const GreyPair& pair) {
   }
   align_numbering(board_, *left, *right);
   Glimpse glimpse{{pair.name, std::move(*left), std::move(*right)}, pair.utime};
-  std::string reason = why_not_here(glimpse);
+  Reason reason = why_not_here(glimpse);
   previous_ = std::move(glimpse);
   return reason;
 }
 
-std::string ViewCollector::why_not_here(const Glimpse& glimpse) const {
-  if (!previous_) return "the board has just come into view";
+Reason ViewCollector::why_not_here(const Glimpse& glimpse) const {
+  constexpr const char* kIsNew = "the board has just come into view";
+  if (!previous_) return {kIsNew, kIsNew};
   const double seconds = kMicroseconds_s * static_cast<double>(glimpse.utime - previous_->utime);
   const double motion_px = shift_px(glimpse.view, previous_->view);
   if (motion_px > params_.max_speed_px_s * seconds)
-    return formatted("moved by %.1f px in %.2f s (limit %.0f px/s)", motion_px, seconds,
-                     params_.max_speed_px_s);
+    return {kBoardMoves, formatted("moved by %.1f px in %.2f s (limit %.0f px/s)", motion_px,
+                                   seconds, params_.max_speed_px_s)};
   for (const View& taken : taken_glimpses_) {
     if (mean_distance_px(glimpse.view.left, taken.left) < params_.min_shift * image_size_.width &&
         shape_change(taken.left, glimpse.view.left) < params_.min_shape_change)
       return stands_as_in(taken);
   }
-  return "";
+  return {};
 }
 
-std::string ViewCollector::why_no_new_shot(const View& view) const {
+Reason ViewCollector::why_no_new_shot(const View& view) const {
   for (const View& taken : views_) {
     if (shift_px(view, taken) < params_.min_shot_shift_px) return stands_as_in(taken);
   }
-  return "";
+  return {};
 }
 
 /// Why there is no view, empty where there is one.
-std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& view) const {
+Reason ViewCollector::find_view(const GreyPair& pair, std::optional<View>& view) const {
   std::optional<BoardPoints> left = find_board(pair.left, board_);
   if (!left) return not_found_in("left");
   std::optional<BoardPoints> right = find_board(pair.right, board_);
@@ -154,15 +158,16 @@ std::string ViewCollector::find_view(const GreyPair& pair, std::optional<View>& 
                                             std::tuple(&pair.right, &view->right, "right")}) {
     const std::optional<double> width_px = edge_width_px(*image, board_, *points);
     if (width_px && *width_px > params_.max_edge_width_px)
-      return formatted(
-          "blurred: edges in the %s image are %.1f px wide (limit %.1f): motion or focus", side,
-          *width_px, params_.max_edge_width_px);
+      return {"blurred", formatted("blurred: edges in the %s image are %.1f px wide (limit %.1f): "
+                                   "motion or focus",
+                                   side, *width_px, params_.max_edge_width_px)};
   }
   const auto num_common = static_cast<int>(common_points(view->left, view->right).ids.size());
   if (num_common < params_.min_points)
-    return formatted("both images show %d points of the board, %d are needed", num_common,
-                     params_.min_points);
-  return "";
+    return {"too few points in both images",
+            formatted("both images show %d points of the board, %d are needed", num_common,
+                      params_.min_points)};
+  return {};
 }
 
 }  // namespace limbcast::calibrate

@@ -23,8 +23,16 @@ struct View {
   BoardPoints left, right;
 };
 
+/// Why a pair gives no view.
+struct Reason {
+  std::string kind;  ///< without figures: pairs are counted by it
+  std::string text;  ///< empty: there is none
+};
+inline constexpr const char* kBoardMoves = "the board moves";
+
 struct RejectedView {
-  std::string name, reason;
+  std::string name;
+  Reason reason;
 };
 
 struct ViewParams {
@@ -71,10 +79,10 @@ class ViewCollector {
   };
 
   void check_size(const GreyPair& pair);
-  std::string why_wait(const GreyPair& pair);
-  std::string why_not_here(const Glimpse& glimpse) const;
-  std::string why_no_new_shot(const View& view) const;
-  std::string find_view(const GreyPair& pair, std::optional<View>& view) const;
+  Reason why_wait(const GreyPair& pair);
+  Reason why_not_here(const Glimpse& glimpse) const;
+  Reason why_no_new_shot(const View& view) const;
+  Reason find_view(const GreyPair& pair, std::optional<View>& view) const;
 
   Board board_;
   bool in_sequence_;

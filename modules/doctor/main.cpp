@@ -59,6 +59,9 @@ std::vector<std::string> words_of(const std::string& list) {
   std::vector<std::string> words;
   std::istringstream in(list);
   for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  if (std::count(words.begin(), words.end(), "") > 0 || list.find(' ') != std::string::npos)
+    throw config::UsageError("'expect' is '" + list +
+                             "', must be names with commas between, as segmenter,pose_fitter");
   return words;
 }
 
@@ -107,6 +110,7 @@ void append(Findings& all, Findings findings) {
 
 /// True: all is good.
 bool examine(const Options& options, const std::string& url_text) {
+  const std::vector<std::string> expected = words_of(options.expect);
   const auto multicast = lcm_io::parse_multicast_url(url_text);
   if (!multicast)
     throw config::UsageError("lcm-url '" + url_text +
@@ -125,7 +129,7 @@ bool examine(const Options& options, const std::string& url_text) {
   append(findings, check_drops(before, read_host_facts("/", url.group)));
   append(findings, check_cpu(before));
   append(findings, check_channels(traffic, known_channels()));
-  append(findings, check_modules(traffic, words_of(options.expect)));
+  append(findings, check_modules(traffic, expected));
   append(findings, check_clocks(traffic, this_host()));
   const std::string report =
       options.json ? report_json(findings, traffic, this_host(), url_text) : report_text(findings);

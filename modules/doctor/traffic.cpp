@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "common/joined.hpp"
+
 namespace limbcast::doctor {
 namespace {
 
@@ -18,6 +20,11 @@ const std::vector<std::string> kCameras = {"stereo_camera", "depth_camera"};
 const std::vector<std::string> kSourcesOfClouds = {"laser_scanner", "simulate"};
 const std::vector<std::string> kBehindClouds = {"segmenter", "pose_fitter"};
 const std::vector<std::string> kChain = {"reconstructor", "segmenter", "pose_fitter"};
+
+/// All of limbcast's that tell how they fare.
+const std::vector<std::string> kModules = {"stereo_camera", "depth_camera",  "laser_scanner",
+                                           "simulate",      "reconstructor", "segmenter",
+                                           "pose_fitter",   "tracker"};
 
 /// "pose_fitter" -> "limbcast-pose-fitter"
 std::string unit_of(std::string module) {
@@ -73,6 +80,10 @@ bool any_heard(const Traffic& traffic, const std::vector<std::string>& modules) 
 }
 
 Finding missing(const std::string& module) {
+  // It may be another project's, which sends the status, too.
+  if (std::find(kModules.begin(), kModules.end(), module) == kModules.end())
+    return {Level::kProblem, "module " + module,
+            "is not heard, and limbcast has none of this name, only " + joined(kModules), ""};
   return {Level::kProblem, "module " + module, "is not heard",
           "systemctl start " + unit_of(module)};
 }

@@ -33,8 +33,9 @@ void declare(config::Section& section, Options& options) {
               "folders with NAME_gt.json, separated by commas; default: the truth in the log");
   section.add("bodies", options.bodies,
               "count only persons whose body begins so, e.g. D4,D5 (needs --truth); default: all");
-  section.add("json", options.json, "file to write all figures to as JSON");
-  section.add("picture", options.picture, "file to draw the distribution of the errors to (PNG)");
+  section.add_name("json", options.json, "file to write all figures to as JSON");
+  section.add_name("picture", options.picture,
+                   "file to draw the distribution of the errors to, .png or .jpg");
   section.add_channel("channel", options.channel, "channel of the poses in the log");
   section.add_channel("tracked-channel", options.tracked_channel,
                       "channel of the tracked poses in the log, to compare with the poses");
@@ -54,31 +55,40 @@ void check(const Options& options) {
   inputs.insert(inputs.end(), {options.log, options.poses});
   config::check_output_file("--json", options.json, inputs);
   config::check_output_file("--picture", options.picture, inputs);
+  config::check_outputs_differ("--picture", options.picture, "--json", options.json);
   check_picture_ending(options.picture);
 }
 
-std::vector<BodyPoses> read_log(const std::string& log, const std::string& channel) {
+/// Poses of one channel of a log.
+struct ReadPoses {
   std::vector<BodyPoses> frames;
-  const auto summary =
-      lcm_io::visit_poses(log, channel, [&](const BodyPoses& poses) { frames.push_back(poses); });
-  lcm_io::warn_about(summary, log, channel);
-  return frames;
+  lcm_io::PoseLogSummary summary;
+};
+
+ReadPoses read_log(const Options& options, const std::string& channel) {
+  ReadPoses read;
+  read.summary = lcm_io::visit_poses(options.log, channel,
+                                     [&](const BodyPoses& poses) { read.frames.push_back(poses); });
+  // The log is read once for each channel, and is torn but once.
+  if (channel != options.channel) read.summary.torn_bytes = 0;
+  lcm_io::warn_about(read.summary, options.log, channel);
+  return read;
 }
 
 std::vector<BodyPoses> read_reported(const Options& options) {
   if (!options.poses.empty()) return pose_json::read_file(options.poses);
-  std::vector<BodyPoses> frames = read_log(options.log, options.channel);
-  if (frames.empty())
-    throw UsageError(options.log + ": holds no poses on " + options.channel +
-                     "; limbcast-replay adds them (tracked ones with --tracker)");
-  return frames;
+  ReadPoses read = read_log(options, options.channel);
+  if (read.frames.empty())
+    throw UsageError(
+        lcm_io::no_poses_on(options.channel, options.log, read.summary.other_channels));
+  return std::move(read.frames);
 }
 
 std::vector<TruthFrame> read_truth(const Options& options) {
   if (!options.truth.empty())
     return read_truth_folders(split_list(options.truth), split_list(options.bodies));
   std::vector<TruthFrame> frames;
-  for (BodyPoses& poses : read_log(options.log, options.truth_channel))
+  for (BodyPoses& poses : read_log(options, options.truth_channel).frames)
     frames.push_back({std::move(poses), {}});
   if (frames.empty())
     throw UsageError(options.log + ": carries no truth on " + options.truth_channel +
@@ -90,7 +100,7 @@ std::vector<TruthFrame> read_truth(const Options& options) {
 std::vector<Figure> compare_tracked(const Options& options, const std::vector<TruthFrame>& truth,
                                     const std::vector<BodyPoses>& reported) {
   if (options.log.empty() || options.channel == options.tracked_channel) return {};
-  const std::vector<BodyPoses> tracked = read_log(options.log, options.tracked_channel);
+  const std::vector<BodyPoses> tracked = read_log(options, options.tracked_channel).frames;
   if (tracked.empty()) return {};
   return tracking_figures(evaluate_tracking(truth, reported, tracked));
 }

@@ -37,9 +37,8 @@ void export_log(const Options& options) {
   flush_lines();
   lcm_io::warn_about(summary, options.log, options.channel);
   if (summary.messages == 0)
-    config::log(config::LogLevel::kWarning,
-                options.log + ": holds no poses on " + options.channel +
-                    "; limbcast-replay adds them (tracked ones with --tracker)");
+    throw config::UsageError(
+        lcm_io::no_poses_on(options.channel, options.log, summary.other_channels));
 }
 
 void export_live(const Options& options, const std::string& lcm_url) {

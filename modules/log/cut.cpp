@@ -1,7 +1,6 @@
 #include "modules/log/cut.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limits>
 #include <map>
@@ -9,6 +8,8 @@
 #include <optional>
 
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
+#include "common/formatted.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/units.hpp"
@@ -167,16 +168,20 @@ std::optional<std::size_t> earliest(const std::vector<Head>& heads) {
   return found;
 }
 
-}  // namespace
-
-void require_different(const std::string& in, const std::string& out) {
-  std::error_code error;
-  if (std::filesystem::equivalent(in, out, error))
-    throw config::UsageError(out + ": is the log that is read; give another OUT.log");
+void check_order(const CutOptions& options) {
+  if (options.to_s >= 0.0 && options.from_s > options.to_s)
+    throw config::UsageError(
+        formatted("--from-s is %g, must not be after --to-s, %g", options.from_s, options.to_s));
+  if (options.to_frame >= 0 && options.from_frame > options.to_frame)
+    throw config::UsageError(formatted("--from-frame is %d, must not be after --to-frame, %d",
+                                       options.from_frame, options.to_frame));
 }
 
+}  // namespace
+
 CopySummary cut(const CutOptions& options) {
-  require_different(options.in, options.out);
+  config::check_output_file("OUT.log", options.out, {options.in});
+  check_order(options);
   const Selection selection(options);
   Calibrations calibrations;
   CopySummary summary;
@@ -203,11 +208,9 @@ CopySummary cut(const CutOptions& options) {
 }
 
 CopySummary merge(const MergeOptions& options) {
+  config::check_output_file("OUT.log", options.out, options.in);
   std::vector<Head> heads;
-  for (const std::string& path : options.in) {
-    require_different(path, options.out);
-    heads.emplace_back(path);
-  }
+  for (const std::string& path : options.in) heads.emplace_back(path);
   Doubles doubles;
   CopySummary summary;
   LateWriter out(options.out);

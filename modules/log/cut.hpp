@@ -28,7 +28,8 @@ struct CopySummary {
 };
 
 /// Copies that part: bytes, times, numbers and order of the events stay. Throws config::UsageError
-/// where IN is no log, OUT cannot be made or is IN, or nothing would be kept.
+/// where IN is no log, OUT cannot be made or is IN, the part ends before it begins, or nothing
+/// would be kept.
 CopySummary cut(const CutOptions& options);
 
 struct MergeOptions {
@@ -41,8 +42,5 @@ struct MergeOptions {
 /// All events of several logs by their times; of one log in its order. Numbers count anew, as those
 /// of several logs are not one count.
 CopySummary merge(const MergeOptions& options);
-
-/// Throws config::UsageError where `out` is `in`.
-void require_different(const std::string& in, const std::string& out);
 
 }  // namespace limbcast::logs

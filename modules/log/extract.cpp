@@ -16,6 +16,8 @@
 
 #include "common/camera/calibration_writer.hpp"
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
+#include "common/joined.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/decode.hpp"
@@ -42,12 +44,6 @@ const std::set<std::string>& types_of(Extracted what) {
   return types.at(what);
 }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw UsageError(folder + ": cannot be made (" + error.message() + ")");
-}
-
 /// Frames of two runs would be taken for one recording.
 void require_no_recording(const std::string& folder) {
   std::error_code error;
@@ -66,12 +62,6 @@ std::string file_name_of(const std::string& channel) {
   }
   const bool is_hidden = name.empty() || name.front() == '.';
   return (is_hidden ? "_" : "") + name + ".jsonl";
-}
-
-std::string joined(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 UsageError no_such_sensor(const ExtractOptions& options, const std::set<std::string>& sensors) {
@@ -106,7 +96,7 @@ class FrameWriter {
   FrameWriter(const ExtractOptions& options, std::string sensor)
       : options_(options), sensor_(std::move(sensor)) {
     require_no_recording(options.folder);
-    make_folder(options.folder);
+    config::make_output_folder("FOLDER", options.folder);
   }
 
   void take(const LogEvent& event) {
@@ -181,7 +171,7 @@ class FrameWriter {
 class PoseWriter {
  public:
   explicit PoseWriter(const ExtractOptions& options) : options_(options) {
-    make_folder(options.folder);
+    config::make_output_folder("FOLDER", options.folder);
   }
 
   void take(const LogEvent& event) {

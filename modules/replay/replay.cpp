@@ -3,11 +3,11 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <opencv2/core/utility.hpp>
 #include <set>
 
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/module.hpp"
@@ -209,12 +209,6 @@ class Replay {
   std::set<Frame> taken_;
 };
 
-void check_files(const ReplayOptions& options) {
-  std::error_code error;
-  if (std::filesystem::equivalent(options.in, options.out, error))
-    throw UsageError(options.out + ": is the log that is replayed; give another OUT.log");
-}
-
 void check_levels(const ReplayOptions& options) {
   if (options.from == Level::kPoses && !options.track)
     throw UsageError("--from poses needs --tracker: nothing else is made from poses");
@@ -225,7 +219,7 @@ void check_levels(const ReplayOptions& options) {
 ReplaySummary replay(const ReplayOptions& options, const ChainOptions& chain,
                      const Progress& progress) {
   check_levels(options);
-  check_files(options);
+  config::check_output_file("OUT.log", options.out, {options.in});
   // Frames are worked on side by side, so that threads within a frame would only get in each
   // other's way.
   const tbb::global_control one_thread_a_frame(tbb::global_control::max_allowed_parallelism, 1);

@@ -11,6 +11,7 @@
 #include "common/camera/calibration_writer.hpp"
 #include "common/camera/picture_file.hpp"
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
 #include "common/whole_file.hpp"
 #include "modules/simulate/truth.hpp"
 
@@ -51,9 +52,9 @@ FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& param
   if (std::filesystem::exists(timestamps, error))
     throw config::UsageError(
         folder + ": holds a recording already; choose another --output or delete the folder");
-  std::filesystem::create_directories(folder, error);
+  config::make_output_folder("--output", folder);
   timestamps_.open(timestamps);
-  if (error || !timestamps_)
+  if (!timestamps_)
     throw config::UsageError(folder + ": cannot write there; choose another --output");
   timestamps_ << "name,utime,down_x,down_y,down_z\n";
   const std::string calibration = folder + "/calibration.yml";

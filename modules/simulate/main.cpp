@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/simulate/frame_folder.hpp"
@@ -48,6 +49,7 @@ void check_complete(int num_made, const SimulateOptions& options, const std::str
 
 void write_log(const SimulateOptions& options, const SimulatorParams& params,
                const Channels& channels) {
+  config::check_output_file("--log", options.log);
   lcm_io::LogWriter log(options.log);
   Outlet outlet(log);
   const int num_made = make_frames(options, params, [&](const SimulatedFrame& frame, int i) {
@@ -107,6 +109,7 @@ void run(int argc, const char* const* argv) {
   parser.add(section);
   if (!parser.parse(argc, argv)) return;
   const SimulatorParams params = to_params(options);
+  refuse_options_of_others(options, parser);
   config::configure_log("simulate", parser.common().log_level);
   lcm_io::install_signal_handlers();
   if (options.report) {

@@ -31,9 +31,9 @@ void refuse_idle_options(const SimulateOptions& options) {
 
 void declare(config::Section& section, SimulateOptions& options) {
   SimulatorParams& params = options.params;
-  section.add("output", options.output, "folder to write the frames to");
-  section.add("log", options.log,
-              "LCM log to write; without folder and log the frames go out live");
+  section.add_name("output", options.output, "folder to write the frames to");
+  section.add_name("log", options.log,
+                   "LCM log to write; without folder and log the frames go out live");
   section.add("rate", options.rate_hz, "frames/s", "of live frames", {0.1, 1000.0});
   section.add("loop", options.loop, "live: start again at the end");
   section.add("sensor-name", options.sensor_name, "name of the sensor in all messages");
@@ -147,6 +147,53 @@ SimulatorParams to_params(const SimulateOptions& options) {
     camera.cy = 0.5 * (camera.height - 1);
   }
   return params;
+}
+
+void refuse_options_of_others(const SimulateOptions& options, const config::Parser& parser) {
+  const bool stereo = options.sensor == "stereo", laser = options.sensor == "laser";
+  const bool stereo_depth = options.sensor == "stereo-depth", depth = options.sensor == "depth";
+  const bool to_folder = !options.output.empty();
+  const bool live = !to_folder && options.log.empty();
+  struct Owner {
+    bool is_chosen;
+    const char* name;
+    std::vector<std::string> keys;
+  };
+  const std::vector<Owner> owners = {
+      {options.report,
+       "with --report only",
+       {"report-from-m", "report-to-m", "report-step-m", "report-frames"}},
+      {!options.report,
+       "not with --report",
+       {"output", "log", "frames", "first", "set", "noise", "rate", "sensor-name", "min-distance-m",
+        "max-distance-m", "occluder-share", "blind", "stereo-images-channel",
+        "stereo-calibration-channel", "depth-images-channel", "point-cloud-channel",
+        "truth-channel"}},
+      {laser,
+       "for the sensor laser only",
+       {"rings", "azimuth-step-deg", "max-azimuth-deg", "max-elevation-deg", "range-sigma-m",
+        "organised", "point-cloud-channel"}},
+      {stereo,
+       "for the sensor stereo only",
+       {"stereo-images-channel", "stereo-calibration-channel"}},
+      {stereo || stereo_depth, "for the sensors stereo and stereo-depth only", {"baseline-m"}},
+      {stereo_depth || depth,
+       "for the sensors stereo-depth and depth only",
+       {"noise", "color", "depth-images-channel"}},
+      {options.set != "sequence",
+       "for other sets than sequence",
+       {"min-distance-m", "occluder-share"}},
+      {live, "for live frames only", {"rate"}},
+      {!to_folder,
+       "for logs and live frames only",
+       {"sensor-name", "stereo-images-channel", "stereo-calibration-channel",
+        "depth-images-channel", "point-cloud-channel", "truth-channel"}},
+      {to_folder && !laser, "for pictures in a folder only", {"blind"}}};
+  for (const Owner& owner : owners) {
+    const std::string given = owner.is_chosen ? "" : parser.on_command_line(owner.keys);
+    if (!given.empty())
+      throw config::UsageError("command line: leave out " + given + " (" + owner.name + ")");
+  }
 }
 
 }  // namespace limbcast::simulate

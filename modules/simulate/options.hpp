@@ -31,4 +31,8 @@ void declare(config::Section& section, SimulateOptions& options);
 /// another.
 SimulatorParams to_params(const SimulateOptions& options);
 
+/// Throws config::UsageError where the command line gives options of another sensor, set or output
+/// than was chosen. A robot's configuration file may tell them: of no use then.
+void refuse_options_of_others(const SimulateOptions& options, const config::Parser& parser);
+
 }  // namespace limbcast::simulate

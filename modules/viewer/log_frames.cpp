@@ -64,7 +64,12 @@ void LogFrames::note(const lcm_io::LogEvent& event, std::int64_t begin,
                      std::map<Key, Place>& places) {
   if (event.channel == channels_.status) take_status(event);
   const auto stamp = stamp_of(event, channels_);
-  if (!stamp) return;
+  if (!stamp) {
+    if (lcm_io::fingerprint_of(event.data) == body_poses_t::getHash())
+      other_pose_channels_.insert(event.channel);
+    return;
+  }
+  has_poses_ |= event.channel == channels_.poses;
   Place& place = places[{stamp->utime, stamp->sensor}];
   if (place.events.empty())
     for (const auto& [name, figures] : modules_) place.modules.push_back(figures);

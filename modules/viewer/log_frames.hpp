@@ -33,6 +33,9 @@ class LogFrames {
   /// Without what cannot be decoded.
   ViewFrame frame(int number);
 
+  bool has_poses() const { return has_poses_; }
+  /// That carry poses, but neither those that are drawn nor the truth.
+  const std::set<std::string>& other_pose_channels() const { return other_pose_channels_; }
   std::int64_t torn_bytes() const { return torn_bytes_; }
   /// Messages met so far that were dropped; warns of the first.
   int num_malformed() const { return static_cast<int>(malformed_.size()); }
@@ -53,6 +56,8 @@ class LogFrames {
   std::map<std::string, ModuleFigures> modules_;
   std::vector<Place> frames_;
   std::set<std::int64_t> malformed_;
+  bool has_poses_ = false;
+  std::set<std::string> other_pose_channels_;
   std::int64_t torn_bytes_ = 0;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/segments_t.hpp>
@@ -20,6 +19,7 @@
 #include "common/lcm_io/module.hpp"
 #include "common/lcm_io/module_status_codec.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
+#include "common/lcm_io/pose_log.hpp"
 #include "common/lcm_io/segments_codec.hpp"
 #include "modules/viewer/frame_assembler.hpp"
 #include "modules/viewer/log_frames.hpp"
@@ -41,8 +41,8 @@ struct Options {
 };
 
 void declare(config::Section& section, Options& options) {
-  section.add("png", options.png, "folder to write pictures to; default: a window");
-  section.add("video", options.video, "file to write the sheets to as a video, .avi or .mp4");
+  section.add_name("png", options.png, "folder to write pictures to; default: a window");
+  section.add_name("video", options.video, "file to write the sheets to as a video, .avi or .mp4");
   section.add("every", options.every, "", "draw every n-th frame only", {1, 1000000});
   section.add("max", options.max, "", "end after so many frames, 0 = all", {0, 1000000000});
   section.add("rate", options.rate_hz, "frames/s", "speed of the video, and of a log in a window",
@@ -66,18 +66,11 @@ void declare(config::Section& section, Options& options) {
 
 bool to_window(const Options& options) { return options.png.empty() && options.video.empty(); }
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw config::UsageError(folder + ": cannot be made; give a folder to --png");
-}
-
 /// Draws frames into files.
 class Output {
  public:
   explicit Output(const Options& options) : options_(options) {
-    if (!options.png.empty()) make_folder(options.png);
+    if (!options.png.empty()) config::make_output_folder("--png", options.png);
     if (!options.video.empty())
       video_ = std::make_unique<SheetVideo>(options.video, options.rate_hz);
   }
@@ -147,10 +140,25 @@ void show_log(const Options& options, LogFrames& log, const std::vector<int>& nu
   }
 }
 
+/// Clouds are worth a look without poses, but who has poses elsewhere gave the wrong channel.
+void check_content(const Options& options, const LogFrames& log_frames) {
+  if (log_frames.has_poses()) return;
+  const ViewChannels& channels = options.channels;
+  const std::set<std::string>& others = log_frames.other_pose_channels();
+  if (log_frames.count() == 0 && others.empty())
+    throw config::UsageError(options.log + ": holds nothing to draw on " + channels.point_cloud +
+                             ", " + channels.segments + " or " + channels.poses +
+                             "; limbcast-replay adds it");
+  const std::string text = lcm_io::no_poses_on(channels.poses, options.log, others);
+  if (!others.empty()) throw config::UsageError(text);
+  log(LogLevel::kWarning, text);
+}
+
 void view_log(const Options& options) {
   LogFrames log_frames(options.log, options.channels);
+  check_content(options, log_frames);
   const std::vector<int> numbers = wanted_frames(options, log_frames.count());
-  const bool windowed = to_window(options) && !numbers.empty();
+  const bool windowed = to_window(options);
   std::size_t num_drawn = 0;
   if (windowed)
     show_log(options, log_frames, numbers);
@@ -160,10 +168,7 @@ void view_log(const Options& options) {
     log(LogLevel::kWarning, std::to_string(log_frames.num_malformed()) + " messages dropped");
   if (log_frames.torn_bytes() > 0)
     log(LogLevel::kWarning, lcm_io::torn_end(options.log, log_frames.torn_bytes()));
-  if (numbers.empty())
-    log(LogLevel::kWarning,
-        options.log + ": holds no clouds, segments or poses to draw; limbcast-replay adds them");
-  if (windowed || numbers.empty()) return;
+  if (windowed) return;
   const std::string drawn =
       std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames";
   if (num_drawn < numbers.size())

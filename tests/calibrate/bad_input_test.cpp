@@ -24,7 +24,9 @@ TEST(CalibrateProgram, RefusesPicturesWithoutBoard) {
   const Outcome outcome = run_program(
       "limbcast-calibrate", {"--source", folder.path(), "--output", folder / "calibration.yml"});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("only 0 good views of the board"));
+  EXPECT_THAT(outcome.err, HasSubstr("only 0 good views of the board, at least 5 are needed, 15 to "
+                                     "30 are better; the others: board not found in the left image "
+                                     "(1); do --board, --columns and --rows describe the board?"));
   EXPECT_FALSE(fs::exists(folder / "calibration.yml"));
 }
 
@@ -153,8 +155,10 @@ TEST(CalibrateProgram, RefusesFilesThatItCannotWriteBeforeItLooksAtPictures) {
                  "/none/c.yml: there is no folder /none; make it or choose another --output");
   expect_refusal({"--output", "c.yml", "--picture", "/none/c.png"},
                  "/none/c.png: there is no folder /none; make it or choose another --picture");
+  expect_refusal({"--output", "c.png", "--picture", "c.png"},
+                 "c.png: is what --output writes; choose another --picture");
   expect_refusal({"--output", "c.yml", "--picture", "c.odt"},
-                 "c.odt: no picture format has this ending; use .png");
+                 "c.odt: pictures are written as .png or .jpg; choose such an ending");
   expect_refusal({"mounting", "--output", "/none/c.yml"},
                  "/none/c.yml: there is no folder /none; make it or choose another --output");
 }

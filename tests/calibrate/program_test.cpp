@@ -121,6 +121,16 @@ std::string numbered(const std::string& stem, std::size_t number) {
   return stem + std::string(4 - digits.size(), '0') + digits;
 }
 
+/// Writes the folder's pairs to in.log.
+void record(const TemporaryFolder& folder, const TemporaryFolder& out) {
+  write_stereo_calibration(out / "any.yml", true_cameras());
+  ASSERT_EQ(run_program("limbcast-stereo-camera",
+                        {"--source", folder.path(), "--calibration", out / "any.yml", "--log",
+                         out / "in.log", "--jpeg-quality", "0"})
+                .exit_code,
+            0);
+}
+
 TEST(CalibrateProgram, CalibratesFromALogOfAMovingBoard) {
   const TemporaryFolder folder;
   std::size_t number = 0;
@@ -129,12 +139,7 @@ TEST(CalibrateProgram, CalibratesFromALogOfAMovingBoard) {
     write_pair(folder, pair);
   }
   const TemporaryFolder out;
-  write_stereo_calibration(out / "any.yml", true_cameras());
-  ASSERT_EQ(run_program("limbcast-stereo-camera",
-                        {"--source", folder.path(), "--calibration", out / "any.yml", "--log",
-                         out / "in.log", "--jpeg-quality", "0"})
-                .exit_code,
-            0);
+  ASSERT_NO_FATAL_FAILURE(record(folder, out));
 
   const Outcome outcome = run_program("limbcast-calibrate",
                                       {"--source", out / "in.log", "--output", out / "found.yml"});
@@ -147,6 +152,28 @@ TEST(CalibrateProgram, CalibratesFromALogOfAMovingBoard) {
        ++view, ++views)
     EXPECT_EQ(std::stol((*view)[1]) % 200'000, 100'000) << view->str();
   EXPECT_GE(views, 8);
+  expect_true_cameras(read_stereo_calibration(out / "found.yml"));
+}
+
+TEST(CalibrateProgram, TellsWhyALogOfSingleShotsGivesNoViewsAndWhatToDo) {
+  const TemporaryFolder folder;
+  write_rendered_pairs(folder);
+  const TemporaryFolder out;
+  ASSERT_NO_FATAL_FAILURE(record(folder, out));
+
+  const Outcome as_video = run_program("limbcast-calibrate",
+                                       {"--source", out / "in.log", "--output", out / "found.yml"});
+
+  EXPECT_EQ(as_video.exit_code, 1);
+  EXPECT_THAT(as_video.err,
+              HasSubstr("only 0 good views of the board, at least 5 are needed, 15 to 30 are "
+                        "better; the others: the board has just come into view (1), the board "
+                        "moves (9); hold it still at each place; of a log of single shots give "
+                        "the folder that limbcast-log extract writes\n"));
+  ASSERT_EQ(run_program("limbcast-log", {"extract", out / "in.log", out / "shots"}).exit_code, 0);
+  const Outcome as_shots =
+      run_program("limbcast-calibrate", {"--source", out / "shots", "--output", out / "found.yml"});
+  EXPECT_EQ(as_shots.exit_code, 0) << as_shots.out << as_shots.err;
   expect_true_cameras(read_stereo_calibration(out / "found.yml"));
 }
 

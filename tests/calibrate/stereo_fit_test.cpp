@@ -79,7 +79,7 @@ TEST(StereoFit, LeavesOutAViewWhoseBoardMovedBetweenTheImages) {
   const StereoFit fit = fit_stereo(views, board, kVga);
   ASSERT_EQ(fit.outliers.size(), 1U);
   EXPECT_EQ(fit.outliers[0].name, "view_5");
-  EXPECT_THAT(fit.outliers[0].reason, HasSubstr("the board moved between the two images"));
+  EXPECT_THAT(fit.outliers[0].reason.text, HasSubstr("the board moved between the two images"));
   expect_found(fit.calibration, true_cameras());
 }
 

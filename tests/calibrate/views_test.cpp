@@ -45,7 +45,7 @@ class Views : public ::testing::Test {
     return pair;
   }
   std::string reason_for(ViewCollector& collector, const GreyPair& pair) const {
-    return collector.add(pair) ? "" : collector.rejected().back().reason;
+    return collector.add(pair) ? "" : collector.rejected().back().reason.text;
   }
   Board board_;
 };

@@ -166,6 +166,21 @@ TEST_F(OptionsTest, NamesTheFileOfAnUnknownKeyOrSection) {
   EXPECT_THAT(error_of({"in.log", "--config", "/missing.conf"}), HasSubstr("/missing.conf"));
 }
 
+TEST_F(OptionsTest, SaysWhatALineOfAFileMustBe) {
+  std::string file = config_file("[pose_fitter]\nthreads\n");
+  EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}),
+              HasSubstr("robot.conf: 'threads' is neither [MODULE] nor KEY = VALUE; see "));
+  file = config_file("\x89PNG\x01\x02\n");
+  EXPECT_THAT(error_of({"in.log", "--config", file.c_str()}),
+              HasSubstr("robot.conf: is no text; give a configuration file to --config"));
+}
+
+TEST_F(OptionsTest, RefusesAFileThatNamesAnother) {
+  const std::string file = config_file("config = other.conf\n");
+  EXPECT_EQ(error_of({"in.log", "--config", file.c_str()}),
+            file + ": 'config' is for the command line; leave it out");
+}
+
 TEST_F(OptionsTest, RefusesAFolderAsConfigurationFile) {
   EXPECT_THAT(error_of({"in.log", "--config", folder_.path().c_str()}),
               HasSubstr(folder_.path() + ": is a folder; give a file to --config"));

@@ -66,5 +66,32 @@ TEST(OutputFile, IsRefusedWhereTheUserMayNotWrite) {
               HasSubstr("/a.yml: cannot be written (Permission denied); choose another --output"));
 }
 
+TEST(OutputFile, IsRefusedWhereAnotherOptionWritesIt) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(test::error_of<UsageError>([&] {
+              check_outputs_differ("--picture", folder / "./a.png", "--json", folder / "a.png");
+            }),
+            folder / "./a.png" + ": is what --json writes; choose another --picture");
+  EXPECT_NO_THROW(check_outputs_differ("--picture", folder / "a.png", "--json", folder / "a.json"));
+  EXPECT_NO_THROW(check_outputs_differ("--picture", "", "--json", ""));
+}
+
+TEST(OutputFolder, IsMadeWithThoseAboveIt) {
+  const TemporaryFolder folder;
+  make_output_folder("--output", folder / "a/b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
+  EXPECT_NO_THROW(make_output_folder("--output", folder / "a/b"));
+}
+
+TEST(OutputFolder, IsRefusedWhereItCannotBe) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("file", "text");
+  const auto refusal_of = [](const std::string& path) {
+    return test::error_of<UsageError>([&path] { make_output_folder("--output", path); });
+  };
+  EXPECT_EQ(refusal_of(file), file + ": is no folder; give one to --output");
+  EXPECT_EQ(refusal_of(file + "/a"), file + "/a: cannot be made; choose another --output");
+}
+
 }  // namespace
 }  // namespace limbcast::config

@@ -57,6 +57,16 @@ TEST(Doctor, PrintsJson) {
   EXPECT_FALSE(json["findings"].empty());
 }
 
+TEST(Doctor, RefusesNamesThatNoModuleHas) {
+  for (const std::string list : {",", "segmenter, pose_fitter"}) {
+    const auto result = test::run({test::program("limbcast-doctor"), "--expect", list});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.output, "limbcast-doctor: 'expect' is '" + list +
+                                 "', must be names with commas between, as "
+                                 "segmenter,pose_fitter\n");
+  }
+}
+
 TEST(Doctor, RefusesAUrlThatIsNotMulticast) {
   const auto result =
       test::run({test::program("limbcast-doctor"), "--lcm-url", "file:///tmp/x.log"});

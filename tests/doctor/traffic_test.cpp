@@ -71,6 +71,17 @@ TEST(CheckModules, OnlyNotesThatNothingRunsYet) {
   EXPECT_THAT(check_modules({}, {"tracker"}), Contains(problem("module tracker", "not heard")));
 }
 
+TEST(CheckModules, NamesAllModulesWhereAnUnknownOneIsMissed) {
+  EXPECT_THAT(check_modules({}, {"segmentr"}),
+              Contains(problem("module segmentr",
+                               "limbcast has none of this name, only stereo_camera, depth_camera, "
+                               "laser_scanner, simulate, reconstructor, segmenter, pose_fitter, "
+                               "tracker")));
+  Traffic traffic;
+  traffic.reports = {report("planner", "vision")};
+  EXPECT_THAT(check_modules(traffic, {"planner"}), Each(Field(&Finding::level, Level::kGood)));
+}
+
 TEST(CheckModules, NamesAModuleThatFailsOrLosesFrames) {
   Traffic traffic;
   traffic.reports = {report("segmenter", "b", 5), report("segmenter", "b", 9)};

@@ -121,8 +121,8 @@ TEST(EvaluateProgram, SaysWhatIsWrongWithItsInput) {
   expect_usage_error({folder / "foreign.log"}, "is no LCM log");
   expect_usage_error({folder / "bare.log"}, "carries no truth");
   expect_usage_error({folder / "in.log"},
-                     "holds no poses on BODY_POSES; limbcast-replay adds them (tracked ones "
-                     "with --tracker)");
+                     "holds no poses on BODY_POSES but on GROUND_TRUTH; choose such a channel, or "
+                     "limbcast-replay adds them (tracked ones with --tracker)");
   expect_usage_error({folder / "in.log", "--truth", folder / "truth"}, "limbcast-replay adds them");
   expect_usage_error({folder / "bare.log", "--bodies", "D4"}, "--bodies needs --truth");
   expect_usage_error({"--poses", folder / "poses.jsonl"}, "--poses needs --truth");
@@ -140,7 +140,10 @@ TEST(EvaluateProgram, RefusesFilesThatItCannotWriteBeforeItReadsAnything) {
   };
   EXPECT_THAT(refusal_of("--json", "/none/a.json"), HasSubstr("no folder /none; make it"));
   EXPECT_THAT(refusal_of("--picture", "/none/a.png"), HasSubstr("no folder /none; make it"));
-  EXPECT_THAT(refusal_of("--picture", "a.odt"), HasSubstr("a.odt: no picture format"));
+  EXPECT_THAT(evaluate_program({"/none.log", "--json", "a.png", "--picture", "a.png"}).err,
+              HasSubstr("a.png: is what --json writes; choose another --picture"));
+  EXPECT_THAT(refusal_of("--picture", "a.odt"),
+              HasSubstr("a.odt: pictures are written as .png or .jpg"));
 }
 
 TEST(EvaluateProgram, RefusesToWriteOverWhatItReads) {
@@ -181,6 +184,21 @@ TEST(EvaluateProgram, SaysThatItsReportCouldNotBeWritten) {
   EXPECT_EQ(line, "limbcast-evaluate: cannot write to stdout");
 }
 
+TEST(EvaluateProgram, WritesJsonBehindTheReportWhereBothGoToStdout) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", true);
+  const std::string program = std::string(LIMBCAST_BIN_DIR) + "/limbcast-evaluate";
+  ASSERT_EQ(std::system((shell_quoted(program) + " " + shell_quoted(folder / "out.log") +
+                         " --brief --json /dev/stdout >" + shell_quoted(folder / "all"))
+                            .c_str()),
+            0);
+  std::ifstream all(folder / "all");
+  std::string line;
+  std::getline(all, line);
+  EXPECT_THAT(line, StartsWith("accuracy on 2 frames:"));
+  EXPECT_EQ(nlohmann::json::parse(all)["frames"], 2);
+}
+
 TEST(EvaluateProgram, JudgesALogOfARoomWithoutPeople) {
   const TemporaryFolder folder;
   lcm_io::LogWriter log(folder / "out.log");
@@ -200,6 +218,7 @@ TEST(EvaluateProgram, GoesOnWithATornLog) {
   const Outcome outcome = evaluate_program({folder / "out.log"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, HasSubstr("is torn"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 frames with truth, 1 of them not reported"));
 }
 

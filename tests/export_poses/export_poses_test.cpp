@@ -78,13 +78,16 @@ TEST(ExportPoses, WritesReadableLinesOnRequest) {
   EXPECT_THAT(outcome.out, HasSubstr("nobody"));
 }
 
-TEST(ExportPoses, WarnsOfALogWithoutPoses) {
+TEST(ExportPoses, NamesTheChannelsOfALogThatHasPosesOnOthersOnly) {
   const TemporaryFolder folder;
   write_log(folder / "a.log");
   const Outcome outcome = export_poses({folder / "a.log", "--channel", "NONE"});
-  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, HasSubstr("holds no poses on NONE"));
+  EXPECT_EQ(outcome.err, "limbcast-export-poses: " + folder / "a.log" +
+                             ": holds no poses on NONE but on BODY_POSES, OTHER, TRACKED_POSES; "
+                             "choose such a channel, or limbcast-replay adds them (tracked ones "
+                             "with --tracker)\n");
 }
 
 TEST(ExportPoses, LeavesOutMalformedAndTruncatedMessages) {

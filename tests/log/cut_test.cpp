@@ -8,6 +8,7 @@
 #include "common/config/options.hpp"
 #include "tests/log/logs.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::logs {
 namespace {
@@ -109,9 +110,26 @@ TEST_F(Cut, ThatKeepsNothingOrOverwritesItsInputIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(out_));
   options_.from_s = 0.0;
   options_.out = in_;
-  EXPECT_THROW(cut(options_), config::UsageError);
+  EXPECT_EQ(test::error_of<config::UsageError>([this] { cut(options_); }),
+            in_ + ": is what is read; choose another OUT.log");
   EXPECT_EQ(events_in(in_).size(), 21U);
   EXPECT_THROW(ChannelFilter("("), config::UsageError);
+}
+
+TEST_F(Cut, ThatEndsBeforeItBeginsIsToldByItsOptions) {
+  const auto refusal_of = [this](const CutOptions& part) {
+    CutOptions options = part;
+    options.in = in_;
+    options.out = out_;
+    return test::error_of<config::UsageError>([&options] { cut(options); });
+  };
+  CutOptions times, frames;
+  times.from_s = 3.0;
+  times.to_s = 1.5;
+  EXPECT_EQ(refusal_of(times), "--from-s is 3, must not be after --to-s, 1.5");
+  frames.from_frame = 30;
+  frames.to_frame = 10;
+  EXPECT_EQ(refusal_of(frames), "--from-frame is 30, must not be after --to-frame, 10");
 }
 
 TEST_F(Cut, WorksFromTheCommandLine) {

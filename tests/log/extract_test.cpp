@@ -169,6 +169,14 @@ TEST_F(Extract, RefusesAFolderThatHoldsARecording) {
   EXPECT_EQ(bytes_of(out_ + "/calibration.yml"), calibration);
 }
 
+TEST_F(Extract, AsksForAFolderWhereAFileIsGiven) {
+  const std::string in = test::repository_file("logs/nobody.log");
+  ExtractOptions onto_file = options(in, Extracted::kImages);
+  onto_file.folder = in;
+  EXPECT_EQ(test::error_of<config::UsageError>([&] { extract(onto_file); }),
+            in + ": is no folder; give one to FOLDER");
+}
+
 TEST_F(Extract, RefusesALogWithNothingOfTheKind) {
   write_ten_frames(log_);
   EXPECT_THROW(extract(options(log_, Extracted::kImages)), config::UsageError);

@@ -213,9 +213,11 @@ TEST_F(ReplayProgram, EndsWithTwoForLogsThatCannotBeUsed) {
 TEST_F(ReplayProgram, EndsWithTwoForWrongUsage) {
   const std::string in = write("in.log", two_frames_);
   expect_wrong_usage({in}, "OUT.log");
-  expect_wrong_usage({in, in}, "is the log that is replayed");
+  expect_wrong_usage({in, in}, "is what is read; choose another OUT.log");
   EXPECT_TRUE(same(events_of(in), two_frames_));
-  expect_wrong_usage({in, path("no/folder/out.log")}, "cannot be written");
+  expect_wrong_usage({in, path("no/folder/out.log")},
+                     "there is no folder " + path("no/folder") + "; make it or choose another");
+  expect_wrong_usage({in, folder_}, folder_ + ": is a folder; give a file to OUT.log");
   expect_wrong_usage({in, path("out.log"), "--threads", "0"}, "threads");
   expect_wrong_usage({in, path("out.log"), "--segmenter.no-such-key=1"}, "no-such-key");
   expect_wrong_usage(

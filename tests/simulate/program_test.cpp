@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limbcast/body_poses_t.hpp>
@@ -33,11 +34,8 @@ std::vector<std::string> command(const std::string& sensor,
                                     "--height-px",
                                     "120",
                                     "--focal-px",
-                                    "130",
-                                    "--rings",
-                                    "32",
-                                    "--azimuth-step-deg",
-                                    "1"};
+                                    "130"};
+  if (sensor == "laser") words.insert(words.end(), {"--rings", "32", "--azimuth-step-deg", "1"});
   words.insert(words.end(), options.begin(), options.end());
   return words;
 }
@@ -104,6 +102,45 @@ TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {
             "limbcast-simulate: --motion is of the set sequence, not of general\n");
   EXPECT_EQ(error({"--output", folder, "--loop"}),
             "limbcast-simulate: --loop is of live frames; leave it out with --output or --log\n");
+  EXPECT_EQ(error({"--log", "/none/a.log"}),
+            "limbcast-simulate: /none/a.log: there is no folder /none; make it or choose another "
+            "--log\n");
+}
+
+TEST(SimulateUsage, RefusesOptionsThatWouldSayNothing) {
+  const std::string folder = temporary_folder("idle");
+  const auto expect_left_out = [&folder](const std::string& sensor, std::vector<std::string> given,
+                                         const std::string& words) {
+    given.insert(given.end(), {"--lcm-url", "none"});
+    const RunResult result = run(command(sensor, given));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.output, "limbcast-simulate: command line: leave out " + words + "\n");
+  };
+  expect_left_out("depth", {"--organised", "--rings", "16"},
+                  "rings, organised (for the sensor laser only)");
+  expect_left_out("laser", {"--baseline-m", "0.1"},
+                  "baseline-m (for the sensors stereo and stereo-depth only)");
+  expect_left_out("laser", {"--color"}, "color (for the sensors stereo-depth and depth only)");
+  expect_left_out("depth", {"--stereo-images-channel", "PAIRS"},
+                  "stereo-images-channel (for the sensor stereo only)");
+  expect_left_out("depth", {"--set", "sequence", "--occluder-share", "1"},
+                  "occluder-share (for other sets than sequence)");
+  expect_left_out("depth", {"--report-to-m", "5"}, "report-to-m (with --report only)");
+  expect_left_out("depth", {"--log", folder + "/in.log", "--rate", "5"},
+                  "rate (for live frames only)");
+  expect_left_out("depth", {"--output", folder + "/out", "--sensor-name", "front"},
+                  "sensor-name (for logs and live frames only)");
+  expect_left_out("depth", {"--log", folder + "/in.log", "--blind"},
+                  "blind (for pictures in a folder only)");
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST(SimulateUsage, TakesOptionsOfAllSensorsFromAConfigurationFile) {
+  const std::string folder = temporary_folder("shared");
+  std::ofstream(folder + "/robot.conf") << "[simulate]\nrings = 16\nbaseline_m = 0.1\n";
+  const RunResult result =
+      run(command("depth", {"--config", folder + "/robot.conf", "--log", folder + "/in.log"}));
+  EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(Sensors, SimulateProgram, ::testing::Values("stereo", "depth", "laser"),

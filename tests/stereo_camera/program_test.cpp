@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <limbcast/body_poses_t.hpp>
+#include <limbcast/point_cloud_t.hpp>
 
 #include "common/lcm_io/decode.hpp"
 #include "tests/stereo_camera/stereo_camera_program.hpp"
@@ -162,9 +163,20 @@ TEST_F(StereoCameraProgram, WritesNoLogOverWhatItReads) {
     EXPECT_EQ(write_log({"--source", folder_, "--log", beside}).exit_code, 0) << state;
 }
 
-TEST_F(StereoCameraProgram, EndsWithCode2OnNamesThatMessagesCannotHave) {
+TEST_F(StereoCameraProgram, NamesTheChannelsOfALogWithoutPairs) {
+  lcm_io::LogWriter log(log_);
+  log.write(0, "POINT_CLOUD", point_cloud_t{});
+  log.close();
+  const RunResult result = run(command({"--source", log_, "--lcm-url", "memq://"}));
+  EXPECT_EQ(result.exit_code, kWrongInput);
+  EXPECT_THAT(result.output, HasSubstr(log_ + ": holds no frame on STEREO_IMAGES but POINT_CLOUD; "
+                                              "choose their channel with --images-channel, or play "
+                                              "other messages with lcm-logplayer\n"));
+}
+
+TEST_F(StereoCameraProgram, EndsWithCode2OnNamesThatMessagesAndFilesCannotHave) {
   write_pairs(folder_, 1, 100'000);
-  for (const char* option : {"--sensor", "--images-channel", "--truth-channel"}) {
+  for (const char* option : {"--sensor", "--images-channel", "--truth-channel", "--log"}) {
     const RunResult result = write_log({"--source", folder_, option, ""});
     EXPECT_EQ(result.exit_code, kWrongInput) << result.output;
     EXPECT_THAT(result.output, HasSubstr("is '', must be a name"));

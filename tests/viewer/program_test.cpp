@@ -124,14 +124,40 @@ TEST(ViewerProgram, FailsWhereItIsInterrupted) {
   EXPECT_THAT(viewer.output(), HasSubstr("limbcast-viewer: interrupted: "));
 }
 
+TEST(ViewerProgram, RefusesALogThatHasPosesOnOtherChannelsOnly) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, true);
+  const Outcome outcome =
+      view({folder / "out.log", "--poses-channel", "TRACKED_POSES", "--png", folder / "pictures"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "limbcast-viewer: " + folder / "out.log" +
+                             ": holds no poses on TRACKED_POSES but on BODY_POSES; choose such a "
+                             "channel, or limbcast-replay adds them (tracked ones with "
+                             "--tracker)\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures"));
+}
+
+TEST(ViewerProgram, DrawsCloudsAloneWithAWarning) {
+  const TemporaryFolder folder;
+  lcm_io::LogWriter log(folder / "out.log");
+  log.write(1, "POINT_CLOUD", lcm_io::to_message(wall(1)));
+  log.close();
+  const Outcome outcome = view({folder / "out.log", "--png", folder / "pictures"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("holds no poses on BODY_POSES; limbcast-replay adds them"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "pictures/frame_00000_sheet.png"));
+}
+
 TEST(ViewerProgram, SaysWhenThereIsNothingToDraw) {
   const TemporaryFolder folder;
   lcm_io::LogWriter log(folder / "out.log");
   log.write(1, "GROUND_TRUTH", lcm_io::to_message(pointing_arm()));
   log.close();
   const Outcome outcome = view({folder / "out.log", "--png", folder / "pictures"});
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("limbcast-replay"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("holds nothing to draw on POINT_CLOUD, SEGMENTS or BODY_POSES; "
+                        "limbcast-replay adds it"));
 }
 
 TEST(ViewerProgram, RefusesWhatIsNoLog) {

@@ -13,10 +13,11 @@ namespace {
 TEST(PictureFile, HasAnEndingThatNamesAFormat) {
   EXPECT_NO_THROW(check_picture_ending("report.png"));
   EXPECT_NO_THROW(check_picture_ending("report.jpg"));
+  EXPECT_NO_THROW(check_picture_ending("REPORT.PNG"));
   EXPECT_NO_THROW(check_picture_ending(""));
-  for (const std::string path : {"report.odt", "report"})
+  for (const std::string path : {"report.odt", "report", "report.exr", "report.pgm"})
     EXPECT_EQ(test::error_of<InputError>([&] { check_picture_ending(path); }),
-              path + ": no picture format has this ending; use .png");
+              path + ": pictures are written as .png or .jpg; choose such an ending");
 }
 
 TEST(PictureFile, IsNamedWhereItCannotBeWritten) {

@@ -6,11 +6,13 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/lcm_io/stamp_codec.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ExitedWithCode;
 using ::testing::HasSubstr;
 
@@ -35,27 +37,93 @@ class InterruptedSource : public PairSource {
   int given_ = 0;
 };
 
+/// A folder whose second pair is bad.
+class TornSource : public PairSource {
+ public:
+  std::optional<FramePair> next() override {
+    if (given_++ > 0) throw InputError("second_left.jpg: is torn");
+    return FramePair{};
+  }
+  bool ended() const override { return false; }
+  bool live() const override { return false; }
+  std::string description() const override { return "a torn folder"; }
+
+ private:
+  int given_ = 0;
+};
+
+/// Is switched off before it gives anything.
+class SilentSource : public PairSource {
+ public:
+  std::optional<FramePair> next() override {
+    lcm_io::request_stop();
+    return std::nullopt;
+  }
+  bool ended() const override { return false; }
+  bool live() const override { return true; }
+  std::string description() const override { return "nothing"; }
+};
+
 /// Ends with the program's exit code.
-[[noreturn]] void write_interrupted(bool is_live, const std::string& log) {
+[[noreturn]] void write_and_exit(PairSource&& source, const std::string& log) {
   std::exit(config::run_program("camera", [&] {
     const SourceProcessOptions options;
-    InterruptedSource source(is_live);
-    FrameSender<FramePair> sender(options, {}, [](Outlet&, FramePair&) {});
+    FrameSender<FramePair> sender(options, {}, [](Outlet& outlet, FramePair& frame) {
+      outlet.send(0, "FRAMES", lcm_io::to_message(frame.stamp));
+    });
     write_log(source, sender, log);
   }));
+}
+
+std::string first_channel_of(const std::string& log) {
+  const auto event = lcm_io::LogReader(log).next();
+  return event ? event->channel : "none";
+}
+
+std::string earlier_log(const test::TemporaryFolder& folder) {
+  const std::string path = folder / "out.log";
+  lcm_io::LogWriter log(path);
+  log.write(0, "EARLIER", lcm_io::to_message(Stamp{}));
+  log.close();
+  return path;
 }
 
 TEST(WrittenLog, OfARecordingIsNoSuccessWhereItWasInterrupted) {
   const test::TemporaryFolder folder;
   const std::string log = folder / "out.log";
-  EXPECT_EXIT(
-      write_interrupted(false, log), ExitedWithCode(1),
-      HasSubstr("camera: interrupted: 3 of 10 frames; " + log + " holds what was sent so far\n"));
+  EXPECT_EXIT(write_and_exit(InterruptedSource(false), log), ExitedWithCode(1),
+              HasSubstr("camera: interrupted: 3 of 10 frames; " + log +
+                        ".unfinished holds what was sent so far\n"));
 }
 
 TEST(WrittenLog, OfACameraIsCompleteWhenItIsToldToEnd) {
   const test::TemporaryFolder folder;
-  EXPECT_EXIT(write_interrupted(true, folder / "out.log"), ExitedWithCode(0), "");
+  const std::string log = earlier_log(folder);
+  EXPECT_EXIT(write_and_exit(InterruptedSource(true), log), ExitedWithCode(0), "");
+  EXPECT_EQ(first_channel_of(log), "FRAMES");
+  EXPECT_FALSE(std::filesystem::exists(log + ".unfinished"));
+}
+
+TEST(WrittenLog, LeavesAnEarlierOneWhereItsSourceFailsInTheMiddle) {
+  const test::TemporaryFolder folder;
+  const std::string log = earlier_log(folder);
+  EXPECT_EXIT(write_and_exit(TornSource(), log), ExitedWithCode(2),
+              AllOf(HasSubstr(log + ".unfinished holds what was sent so far\n"),
+                    HasSubstr("camera: second_left.jpg: is torn\n")));
+  EXPECT_EQ(first_channel_of(log), "EARLIER");
+  EXPECT_EQ(first_channel_of(log + ".unfinished"), "FRAMES");
+}
+
+TEST(WrittenLog, IsMissedWhereNoFrameCame) {
+  const test::TemporaryFolder folder;
+  const std::string log = folder / "out.log";
+  EXPECT_EXIT(write_and_exit(SilentSource(), log), ExitedWithCode(1),
+              HasSubstr("camera: " + log + ": was not written, as no frame came\n"));
+}
+
+TEST(WrittenLog, GoesToWhatIsNoFile) {
+  EXPECT_EXIT(write_and_exit(InterruptedSource(true), "/dev/null"), ExitedWithCode(0), "");
+  EXPECT_FALSE(std::filesystem::is_regular_file("/dev/null"));
 }
 
 TEST(WrittenLog, IsRefusedOverAnyFileThatIsRead) {

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "common/input_error.hpp"
@@ -95,6 +96,24 @@ TEST(OpenSource, NamesWhatDoesNotExist) {
   EXPECT_THAT(error_of_opening("/none", stereo_format()), HasSubstr("/none: does not exist"));
   EXPECT_THAT(error_of_opening("/dev/video987", stereo_format()),
               HasSubstr("/dev/video987: No such file or directory; is the camera plugged in?"));
+}
+
+TEST(OpenSource, TakesNoPictureForAVideo) {
+  const TemporaryFolder folder;
+  const std::string picture = folder / "one.jpg";
+  cv::imwrite(picture, grey_picture(640, 480, 90));
+  for (const PairFormat& format : {stereo_format(), depth_format()})
+    EXPECT_EQ(error_of_opening(picture, format),
+              picture + ": is one picture; give its folder, an LCM log, a video file or a camera");
+}
+
+TEST(OpenSource, AsksForAFolderOrALogOfDepth) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("empty.yml", "");
+  EXPECT_EQ(error_of_opening(file, depth_format()),
+            file +
+                ": is neither a folder nor an LCM log, and videos cannot hold 16-bit depth; "
+                "give a folder of pictures, a log or cameras");
 }
 
 TEST(OpenSource, NamesADeviceThatIsNoCamera) {
