@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "modules/simulate/body.hpp"
@@ -24,8 +24,9 @@ class SceneBuilder {
   /// Floor and, mostly, walls and ceiling; else a yard with a house and trees far away. Mostly the
   /// walls keep away from the circles; some people lean against them.
   void room(const std::vector<Circle>& keep_free);
-  /// In place of a room: trunks, poles, bushes and cars on open ground, houses far away. Trunks and
-  /// poles reach over what a scanner of few degrees sees.
+  /// In place of a room: trunks, poles with signs, bushes, bins, bicycles and cars on open ground,
+  /// houses far away. Trunks and poles reach over what a scanner of few degrees sees; through the
+  /// panes of most cars one sees seats and pillars.
   void street(const std::vector<Circle>& keep_free);
   /// `count` pieces of furniture that leave the circles free.
   void furniture(int count, const std::vector<Circle>& keep_free);
@@ -42,6 +43,22 @@ class SceneBuilder {
   World& world() { return world_; }
 
  private:
+  /// Puts parts of one thing where it stands: x along it, y up, z across.
+  struct Placed {
+    SceneBuilder& scene;
+    Eigen::Vector3d at;
+    double yaw_rad;
+    Material material;
+
+    Eigen::AngleAxisd turn() const { return {yaw_rad, Eigen::Vector3d::UnitY()}; }
+    Eigen::Vector3d world(const Eigen::Vector3d& point) const { return at + turn() * point; }
+    void box(const Eigen::Vector3d& center, const Eigen::Vector3d& size) const {
+      scene.box(world(center), size, yaw_rad, material);
+    }
+    void bar(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double thick_m) const;
+  };
+  Placed placed(double x, double z, double yaw_rad);
+
   Solid& box(const Eigen::Vector3d& center, const Eigen::Vector3d& size, double yaw_rad,
              const Material& material);
   Solid& round(Solid::Kind kind, const Eigen::Vector3d& center, const Eigen::Vector3d& half,
@@ -67,7 +84,13 @@ class SceneBuilder {
   void pole(double x, double z);
   void foliage(const Eigen::Vector3d& center, double spread_m);
   void bush(double x, double z);
+  /// A wheel or a sign, upright; `yaw_rad` turns it about the vertical.
+  void disc(const Eigen::Vector3d& center, double radius_m, double half_width_m, double yaw_rad);
+  void bin(double x, double z);
+  void bicycle(double x, double z);
   void car(double x, double z);
+  /// On a car of this length, height of the panes' lower edge, and width [m].
+  void cabin(const Placed& car, const Eigen::Vector3d& size);
 
   Rng rng_;
   World world_;

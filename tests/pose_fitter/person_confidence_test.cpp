@@ -61,7 +61,7 @@ TEST(PersonConfidence, MustBeHighWhereTheDepthIsNoisierThanItsTrainingWas) {
 }
 
 TEST(PersonConfidence, MustBeHigherBeforeAScanner) {
-  FittedBody fitted = doubtful_person(0.86, 0.95);
+  FittedBody fitted = doubtful_person(0.76, 0.84);
   fitted.observation.noise = kOfACamera;
   EXPECT_TRUE(told_alone(fitted));
   fitted.observation.noise = kOfAScanner;

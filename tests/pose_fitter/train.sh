@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   8500 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
+#   SIMULATED_DIR   9300 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -69,6 +69,16 @@ simulate p_street_nohuman nohuman laser 200 861 "${street[@]}"
 simulate p_street_multi multi laser 80 862 --max-distance-m 9 "${street[@]}" "${coats[@]}"
 simulate p_narrow_nohuman nohuman laser 200 863 "${narrow[@]}"
 simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9 "${narrow[@]}" "${coats[@]}"
+# Streets before scanners of more rings: over 45 degrees, 90 degrees, and a car's scanner that looks down.
+streets=(--street-share 1 --max-camera-height-m 2.1)
+car_roof=(--rings 64 --max-elevation-deg 13.4 --pitch-down-deg 11.4 --min-camera-height-m 1.5 "${streets[@]}")
+simulate p_street64_nohuman nohuman laser 150 911 "${streets[@]}"
+simulate p_street64_multi multi laser 60 912 --max-distance-m 8 "${streets[@]}" "${coats[@]}"
+simulate p_street128_nohuman nohuman laser 150 913 --rings 128 --max-elevation-deg 45 "${streets[@]}"
+simulate p_street128_multi multi laser 60 914 --rings 128 --max-elevation-deg 45 --max-distance-m 8 "${streets[@]}" "${coats[@]}"
+simulate p_roof_nohuman nohuman laser 200 915 "${car_roof[@]}"
+simulate p_roof_multi multi laser 80 916 --max-distance-m 9 "${car_roof[@]}" "${coats[@]}"
+simulate p_roof_general general laser 60 917 --max-distance-m 9 "${car_roof[@]}" "${coats[@]}"
 # More of what may be taken for people.
 simulate p_laser_nohuman4 nohuman laser 200 871
 simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"
