@@ -92,11 +92,12 @@ TEST(PersonConfidence, MayBeLowerInCompany) {
 }
 
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
-  FittedBody doubtful = doubtful_person(0.5, 0.75), sure = standing_person();
+  FittedBody doubtful = doubtful_person(0.4, 0.6), sure = standing_person();
   for (FittedBody* fitted : {&doubtful, &sure}) {
     fitted->observation.noise = kOfACamera;
     fitted->evidence.sigma_m[kHead] = 10.0;
   }
+  ASSERT_LT(person_confidence(doubtful), 0.75) << "as the head's spread is evidence, too";
   EXPECT_FALSE(assess(doubtful));
   const auto told = assess(sure);
   ASSERT_TRUE(told);
