@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/algorithm/string/join.hpp>
 #include <string>
 
 namespace limbcast {
@@ -7,9 +8,7 @@ namespace limbcast {
 /// "left, right, depth".
 template <class Names>
 std::string joined(const Names& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
+  return boost::algorithm::join(names, ", ");
 }
 
 }  // namespace limbcast

@@ -19,8 +19,8 @@ struct GroundPlaneParams {
   /// Distance to the plane that still counts as ground [m]; two sigma of the depth noise are added.
   double inlier_distance_m = 0.03;
   /// Points farther away say nothing of the ground [m]: streets slope and have kerbs, and who is
-  /// found stands within 8 m. Of nine real scans of streets and yards eight show a plane within 10
-  /// m, three within 30 m.
+  /// found stands within 8 m. Of nine real scans of streets and yards three show a plane with
+  /// points up to 30 m away, eight with those up to 10 m.
   double max_distance_m = 10.0;
   /// The plane must hold at least this share of those points (a frame filled by one person shows
   /// about 5 % floor).
