@@ -36,7 +36,8 @@ DepthImages depth_images(const SimulatedFrame& frame, const Stamp& stamp) {
 }
 
 Cloud laser_cloud(const LaserScan& scan, const LaserParams& params, Stamp stamp) {
-  stamp.depth_noise.constant_m = static_cast<float>(params.range_sigma_m);
+  stamp.depth_noise.constant_m =
+      static_cast<float>(std::hypot(params.range_sigma_m, params.ring_range_sigma_m));
   Cloud cloud;
   cloud.stamp = stamp;
   for (std::size_t i = 0; i < scan.points_m.size(); ++i) {

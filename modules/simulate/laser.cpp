@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace limbcast::simulate {
@@ -11,7 +12,22 @@ using Eigen::Vector3f;
 
 constexpr double kRadian = 3.14159265358979 / 180.0;
 
-RayGrid rays_of(const LaserParams& params) {
+/// What a ring tells wrong.
+struct RingError {
+  double range_m = 0.0, azimuth_deg = 0.0;
+};
+
+std::vector<RingError> errors_of_rings(const LaserParams& params, Rng rng) {
+  std::vector<RingError> errors(static_cast<std::size_t>(params.rings));
+  for (RingError& error : errors) {
+    error.range_m = rng.normal(0.0, params.ring_range_sigma_m);
+    error.azimuth_deg = rng.normal(0.0, params.ring_azimuth_sigma_deg);
+  }
+  return errors;
+}
+
+/// `errors`: of each ring's azimuth.
+RayGrid rays_of(const LaserParams& params, const std::vector<RingError>& errors) {
   RayGrid rays;
   rays.height = params.rings;
   rays.width = 1 + static_cast<int>(std::lround((params.max_azimuth_deg - params.min_azimuth_deg) /
@@ -19,8 +35,10 @@ RayGrid rays_of(const LaserParams& params) {
   const double elevation_step =
       params.rings > 1 ? (params.max_elevation_deg - params.min_elevation_deg) / (params.rings - 1)
                        : 0.0;
-  rays.direction = [params, elevation_step](int u, int v) {
-    const double azimuth = (params.min_azimuth_deg + u * params.azimuth_step_deg) * kRadian;
+  rays.direction = [params, elevation_step, errors](int u, int v) {
+    const double azimuth = (params.min_azimuth_deg + u * params.azimuth_step_deg +
+                            errors[static_cast<std::size_t>(v)].azimuth_deg) *
+                           kRadian;
     const double elevation =
         (params.max_elevation_deg - v * elevation_step) * kRadian;  // rows from the top
     return Vector3f(static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
@@ -40,7 +58,10 @@ float brightness(const Material& material) {
 }  // namespace
 
 LaserScan scan(const World& world, const LaserParams& params, Rng rng) {
-  const RayGrid rays = rays_of(params);
+  constexpr std::uint64_t kRings = 1;
+  const std::vector<RingError> errors = errors_of_rings(params, rng.derive(kRings));
+  const RayGrid rays = rays_of(params, errors);
+  const RayGrid told = rays_of(params, std::vector<RingError>(errors.size()));
   RaycastParams cast;
   cast.max_range_m = static_cast<float>(params.max_range_m);
   const HitImage hits = raycast(world, rays, cast);
@@ -48,7 +69,8 @@ LaserScan scan(const World& world, const LaserParams& params, Rng rng) {
   for (int v = 0; v < rays.height; ++v) {
     for (int u = 0; u < rays.width; ++u) {
       const Hit& hit = hits.at(u, v);
-      double range = hit.range_m + rng.normal(0.0, params.range_sigma_m);
+      double range = hit.range_m + errors[static_cast<std::size_t>(v)].range_m +
+                     rng.normal(0.0, params.range_sigma_m);
       const bool lost = rng.chance(params.lost_share);
       const double share = rng.uniform();
       // A beam that meets an edge with half its width tells something between front and back; it
@@ -59,7 +81,7 @@ LaserScan scan(const World& world, const LaserParams& params, Rng rng) {
           next && std::abs(next.range_m - hit.range_m) > 0.05F && rng.chance(0.5 * edge_chance);
       if (edge) range += share * (next.range_m - hit.range_m);
       if (hit && !lost) {
-        result.points_m.emplace_back(static_cast<float>(range) * rays.direction(u, v));
+        result.points_m.emplace_back(static_cast<float>(range) * told.direction(u, v));
         result.intensities.push_back(brightness(material_of(world, hit)));
         result.persons.push_back(person_of(world, hit));
       } else if (params.organised) {

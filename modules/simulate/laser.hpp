@@ -16,6 +16,9 @@ struct LaserParams {
   double min_azimuth_deg = -90.0, max_azimuth_deg = 90.0;  ///< 0 = along z, positive to the right
   double azimuth_step_deg = 0.2;
   double range_sigma_m = 0.010;  ///< as in data/laser_dev
+  /// How far each ring's range and azimuth are off, the same in a whole scan: what calibration
+  /// leaves of real scanners' lasers.
+  double ring_range_sigma_m = 0.0, ring_azimuth_sigma_deg = 0.0;
   double max_range_m = 25.0;
   double lost_share = 0.005;      ///< of the returns, at random
   double edge_beam_rad = 0.0015;  ///< half the beam's width: at edges it averages front and back

@@ -89,6 +89,10 @@ void declare(config::Section& section, SimulateOptions& options) {
   section.add("max-elevation-deg", params.laser.max_elevation_deg, "deg",
               "the laser looks up and down", {1.0, 90.0});
   section.add("range-sigma-m", params.laser.range_sigma_m, "m", "noise of the laser", {0.0, 1.0});
+  section.add("ring-range-sigma-m", params.laser.ring_range_sigma_m, "m",
+              "by which each ring's ranges are off", {0.0, 1.0});
+  section.add("ring-azimuth-sigma-deg", params.laser.ring_azimuth_sigma_deg, "deg",
+              "by which each ring's azimuths are off", {0.0, 5.0});
   section.add("organised", params.laser.organised, "keep the laser's rows, with NaN for no return");
   section.add("report", options.report,
               "tell to what distance poses will be right, from runs of limbcast-replay");
@@ -172,7 +176,7 @@ void refuse_options_of_others(const SimulateOptions& options, const config::Pars
       {laser,
        "for the sensor laser only",
        {"rings", "azimuth-step-deg", "max-azimuth-deg", "max-elevation-deg", "range-sigma-m",
-        "organised", "point-cloud-channel"}},
+        "ring-range-sigma-m", "ring-azimuth-sigma-deg", "organised", "point-cloud-channel"}},
       {stereo,
        "for the sensor stereo only",
        {"stereo-images-channel", "stereo-calibration-channel"}},

@@ -150,7 +150,7 @@ double sigma_z_m(const SimulatorParams& params, double distance_m) {
       return params.depth.constant_sigma_m + params.depth.quadratic_sigma_per_m * beyond * beyond;
     }
     case SensorKind::kLaser:
-      return params.laser.range_sigma_m;
+      return std::hypot(params.laser.range_sigma_m, params.laser.ring_range_sigma_m);
   }
   return 0.0;
 }

@@ -24,6 +24,8 @@ TEST(SigmaZ, OfALaserIsItsNoise) {
   params.laser.range_sigma_m = 0.02;
 
   EXPECT_EQ(sigma_z_m(params, 7.0), 0.02);
+  params.laser.ring_range_sigma_m = 0.015;
+  EXPECT_NEAR(sigma_z_m(params, 7.0), 0.025, 1e-12);
 }
 
 TEST(Report, SaysFromWhereToWherePosesAreRight) {

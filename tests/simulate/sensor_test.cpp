@@ -121,29 +121,82 @@ TEST(DepthSensor, SeesNothingBeyondItsRangeOrAlongASurface) {
   EXPECT_EQ(cv::countNonZero(sense_depth(wall(2.0F), wall(0.01F), kCamera, params, Rng(8))), 0);
 }
 
-TEST(Laser, MeasuresAWallWithItsNoise) {
-  World world;
-  Solid solid;
-  solid.half_m = {50.0F, 50.0F, 0.1F};
-  solid.frame_from_solid.translation() = Eigen::Vector3f(0, 0, 4.1F);
-  world.solids.push_back(solid);
+constexpr int kRings = 16, kReturns = 201;
+
+LaserParams over_the_wall() {
   LaserParams params;
-  params.rings = 16;
+  params.rings = kRings;
   params.lost_share = 0.0;
   params.min_azimuth_deg = -20.0;
   params.max_azimuth_deg = 20.0;
   params.min_elevation_deg = -10.0;
   params.max_elevation_deg = 10.0;
+  return params;
+}
 
-  const LaserScan result = scan(world, params, Rng(9));
+/// By how much each point's range before a wall 4 m away is wrong [m], ring after ring.
+std::vector<double> range_errors_m(const LaserParams& params) {
+  World world;
+  Solid solid;
+  solid.half_m = {50.0F, 50.0F, 0.1F};
+  solid.frame_from_solid.translation() = Eigen::Vector3f(0, 0, 4.1F);
+  world.solids.push_back(solid);
+  std::vector<double> errors_m;
+  for (const Eigen::Vector3f& point : scan(world, params, Rng(9)).points_m)
+    errors_m.push_back((point.z() - 4.0) * point.norm() / point.z());
+  return errors_m;
+}
 
-  ASSERT_EQ(result.points_m.size(), 16U * 201U);
+double root_mean_square(const std::vector<double>& values) {
   double squares = 0.0;
-  for (const Eigen::Vector3f& point : result.points_m) {
-    const double range_error = (point.z() - 4.0) * point.norm() / point.z();
-    squares += range_error * range_error;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+TEST(Laser, MeasuresAWallWithItsNoise) {
+  const LaserParams params = over_the_wall();
+
+  const std::vector<double> errors_m = range_errors_m(params);
+
+  ASSERT_EQ(errors_m.size(), std::size_t{kRings} * kReturns);
+  EXPECT_NEAR(root_mean_square(errors_m), params.range_sigma_m, 0.001);
+}
+
+TEST(Laser, ARingsRangesAreOffTogether) {
+  LaserParams params = over_the_wall();
+  params.range_sigma_m = 0.0;
+  params.ring_range_sigma_m = 0.03;
+
+  const std::vector<double> errors_m = range_errors_m(params);
+
+  ASSERT_EQ(errors_m.size(), std::size_t{kRings} * kReturns);
+  std::vector<double> of_rings_m;
+  for (std::size_t i = 0; i < errors_m.size(); ++i) {
+    if (i % kReturns == 0) of_rings_m.push_back(errors_m[i]);
+    EXPECT_NEAR(errors_m[i], of_rings_m.back(), 0.001);
   }
-  EXPECT_NEAR(std::sqrt(squares / result.points_m.size()), params.range_sigma_m, 0.001);
+  EXPECT_NEAR(root_mean_square(of_rings_m), params.ring_range_sigma_m, 0.015);
+}
+
+TEST(Laser, ARingsAzimuthsAreOffTogether) {
+  LaserParams params = over_the_wall();
+  params.range_sigma_m = 0.0;
+  params.ring_azimuth_sigma_deg = 1.0;
+
+  const std::vector<double> errors_m = range_errors_m(params);
+
+  // A ray that goes by its azimuth's error e to the right of where it is told to meets a wall 4 m
+  // away by 4 m tan(azimuth) e farther away (cos(elevation) = 1 nearly).
+  ASSERT_EQ(errors_m.size(), std::size_t{kRings} * kReturns);
+  std::vector<double> of_rings_deg;
+  for (std::size_t ring = 0; ring < kRings; ++ring) {
+    constexpr double kRadian = 3.14159265358979 / 180.0;
+    const double right_m = errors_m[ring * kReturns + kReturns - 1],
+                 left_m = errors_m[ring * kReturns];
+    const double slope_m = 2.0 * 4.0 * std::tan(20.0 * kRadian) / std::cos(20.0 * kRadian);
+    of_rings_deg.push_back((right_m - left_m) / slope_m / kRadian);
+  }
+  EXPECT_NEAR(root_mean_square(of_rings_deg), params.ring_azimuth_sigma_deg, 0.5);
 }
 
 TEST(Laser, KeepsItsGridWhereItIsOrganised) {
