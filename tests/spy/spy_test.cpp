@@ -79,6 +79,17 @@ TEST(SpyScript, TellsInOneLineThatThereIsNoDisplay) {
                     EndsWith(remedy)));
 }
 
+TEST(SpyOnADisplay, TellsInOneLineThatTheUrlIsWrong) {
+  if (!test::VirtualDisplay::available()) GTEST_SKIP() << "Xvfb, xdotool or ImageMagick is missing";
+  const test::VirtualDisplay display;
+  test::ChildProcess spy({test::repository_file("modules/spy/limbcast-spy"), "--lcm-url=nonsense"},
+                         test::temporary_folder("wrong_url") + "/spy.txt", {display.variable()});
+  EXPECT_EQ(spy.wait(), 2);
+  EXPECT_EQ(spy.output(),
+            "limbcast-spy: lcm-url 'nonsense': URLParser: Invalid URL: nonsense; write it like "
+            "udpm://239.255.76.67:7667?ttl=1\n");
+}
+
 TEST_F(RealLog, EveryTypeIsDecodedByLcmSpy) {
   std::vector<LogEvent> events = replay::events_of(log_);
   const std::string all = test::temporary_folder("types") + "/all.log";
