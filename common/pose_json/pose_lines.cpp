@@ -170,6 +170,7 @@ std::vector<BodyPoses> read_file(const std::string& path) {
   const bool is_open = file.is_open();
   std::vector<BodyPoses> frames = read_lines(file, path);
   if (!is_open || file.bad()) throw InputError(path + ": cannot be read; " + kRemedy);
+  if (frames.empty()) throw InputError(path + ": holds no frame; " + kRemedy);
   return frames;
 }
 

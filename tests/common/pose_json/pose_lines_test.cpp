@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/input_error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::pose_json {
 namespace {
@@ -179,6 +180,15 @@ TEST(PoseLines, ThatAreNoneAreToldWhereTheyComeFrom) {
 TEST(PoseLines, OfAMissingFileAreAnError) {
   EXPECT_THAT([] { read_file("/no/such/file.jsonl"); },
               testing::ThrowsMessage<InputError>(HasSubstr("/no/such/file.jsonl: cannot be read")));
+}
+
+TEST(PoseLines, OfAnEmptyFileAreAnError) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("poses.jsonl", "\n");
+  EXPECT_EQ(test::error_of<InputError>([&] { read_file(path); }),
+            path +
+                ": holds no frame; give a file that limbcast-export-poses wrote (with --format "
+                "json, its default)");
 }
 
 TEST(PoseLines, OfAFolderAreAnError) {
