@@ -17,6 +17,7 @@
 #include "common/lcm_io/whole_log.hpp"
 #include "common/units.hpp"
 #include "modules/log/message_types.hpp"
+#include "modules/log/next_of.hpp"
 
 namespace limbcast::logs {
 namespace {
@@ -33,11 +34,6 @@ struct Span {
   }
   bool holds(std::int64_t value) const { return value >= from && value <= to; }
 };
-
-/// None when the program is told to end.
-std::optional<LogEvent> next_of(lcm_io::LogReader& reader) {
-  return lcm_io::stop_requested() ? std::nullopt : reader.next();
-}
 
 /// Decides event by event; a first pass through the log finds the frames.
 class Selection {

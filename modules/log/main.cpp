@@ -143,6 +143,7 @@ void run_extract(int argc, const char* const* argv) {
   config::configure_log("log", parser.common().log_level);
   options.what = extracted_named(what);
   options.channels = channels.filter();
+  lcm_io::install_signal_handlers();
   const ExtractSummary summary = extract(options);
   warn_of_losses(summary.torn_bytes, summary.damaged_bytes);
   if (summary.malformed > 0)

@@ -3,11 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "common/config/options.hpp"
-#include "common/lcm_io/module.hpp"
 #include "tests/log/logs.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -16,15 +14,6 @@ namespace limbcast::logs {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// Ends with the program's exit code, but leaves the tests' folders.
-template <class Command>
-[[noreturn]] void run_interrupted(const Command& command) {
-  std::_Exit(config::run_program("log", [&command] {
-    lcm_io::request_stop();
-    command();
-  }));
-}
 
 class Cut : public ::testing::Test {
  protected:
