@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 constexpr double kLargestSensorHeight_m = 100.0;
 
 int read_size(const YamlReader& yaml, const std::string& key) {
-  const int size_px = yaml.integer(key);
-  if (size_px <= 0 || size_px > kMaxImageSide) {
-    yaml.fail(key, "is " + std::to_string(size_px),
+  const double size_px = yaml.integer(key);
+  if (!(size_px >= 1.0 && size_px <= kMaxImageSide)) {
+    yaml.fail(key, formatted("is %.0f", size_px),
               "must be 1 to " + std::to_string(kMaxImageSide) + " px");
   }
-  return size_px;
+  return static_cast<int>(size_px);
 }
 
 std::vector<double> read_distortion(const YamlReader& yaml, const std::string& key) {

@@ -1,6 +1,7 @@
 #include "common/camera/yaml_reader.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -26,6 +27,35 @@ std::string with_opencv_header(const std::string& text) {
   if (text.rfind("%YAML", 0) == 0 || text.rfind("<?xml", 0) == 0 || text.front() == '{')
     return text;
   return "%YAML:1.0\n" + std::string(text.rfind("---", 0) == 0 ? "" : "---\n") + text;
+}
+
+/// Of as many digits a number may have more than 32 bits.
+constexpr std::size_t kLongDigits = 10;
+constexpr double kSmallestLongNumber = 1e9;
+
+bool is_one_of(const std::string& characters, char character) {
+  return characters.find(character) != std::string::npos;
+}
+
+/// OpenCV's reader wraps a whole number of more than 32 bits; with a point it is a real.
+std::string with_long_numbers_real(const std::string& text) {
+  std::string real;
+  std::size_t digits = 0;
+  for (const char character : text + '\n') {
+    if (std::isdigit(static_cast<unsigned char>(character)) != 0) {
+      ++digits;
+    } else {
+      const bool is_long = digits >= kLongDigits && digits < real.size();
+      const bool stands_alone = is_long &&
+                                is_one_of(" \t\r\n,[:>+-", real[real.size() - digits - 1]) &&
+                                is_one_of(" \t\r\n,]}<", character);
+      if (stands_alone) real += ".0";
+      digits = 0;
+    }
+    real += character;
+  }
+  real.pop_back();
+  return real;
 }
 
 void append_numbers(const cv::FileNode& node, std::vector<double>& numbers) {
@@ -62,7 +92,7 @@ std::string reason_of(const cv::Exception& error, std::ptrdiff_t lines_before) {
 
 YamlReader::YamlReader(const std::string& path) : path_(path) {
   const std::string own = read_text(path);
-  const std::string text = with_opencv_header(own);
+  const std::string text = with_long_numbers_real(with_opencv_header(own));
   try {
     storage_.open(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   } catch (const cv::Exception& error) {
@@ -91,10 +121,12 @@ cv::FileNode YamlReader::node(const std::string& key) const {
   return found;
 }
 
-int YamlReader::integer(const std::string& key) const {
+double YamlReader::integer(const std::string& key) const {
   const cv::FileNode value = node(key);
-  if (!value.isInt()) fail(key, "is not a whole number", "correct it");
-  return static_cast<int>(value);
+  const double number = value.isInt() || value.isReal() ? static_cast<double>(value) : 0.0;
+  if (!value.isInt() && std::abs(number) < kSmallestLongNumber)
+    fail(key, "is not a whole number", "correct it");
+  return number;
 }
 
 double YamlReader::number(const std::string& key) const {

@@ -19,7 +19,8 @@ class YamlReader {
   /// The first of `keys` that the file has; the first one where it has none.
   std::string first_of(const std::vector<std::string>& keys) const;
 
-  int integer(const std::string& key) const;
+  /// A whole number as it stands in the file, of any length.
+  double integer(const std::string& key) const;
   double number(const std::string& key) const;
   std::string text(const std::string& key) const;
   /// All numbers of a matrix (row by row) or list; finite.

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "common/config/options.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast::config {
 namespace {
@@ -25,8 +26,10 @@ void check_output_file(const std::string& option, const std::string& path,
   if (path.empty()) return;
   std::error_code ignored;
   for (const std::string& input : inputs) {
-    if (fs::equivalent(path, input, ignored))
-      throw UsageError(path + ": is what is read; choose another " + option);
+    for (const std::string& written : {path, unfinished_file(path)}) {
+      if (fs::equivalent(written, input, ignored))
+        throw UsageError(written + ": is what is read; choose another " + option);
+    }
   }
   if (fs::is_directory(path, ignored))
     throw UsageError(path + ": is a folder; give a file to " + option);

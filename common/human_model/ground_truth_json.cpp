@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/input_file.hpp"
+#include "common/whole_number.hpp"
 
 namespace limbcast {
 namespace {
@@ -98,11 +99,18 @@ Pointing read_pointing(const Located& file) {
   return pointing;
 }
 
+template <class Integer>
+Integer read_integer(const Located& located) {
+  const auto number = whole_number<Integer>(located.value);
+  if (!number)
+    located.fail("is not " + whole_number_text<Integer>() + " but " + located.value.dump());
+  return *number;
+}
+
 BodyPose read_person(const Located& person, int place) {
   BodyPose pose;
-  pose.id = person.has("id") && person.value.at("id").is_number_integer()
-                ? person.value.at("id").get<std::int32_t>()
-                : place;
+  const bool has_number = person.has("id") && person.value.at("id").is_number();
+  pose.id = has_number ? read_integer<std::int32_t>(person.at("id")) : place;
   pose.confidence = 1.0F;
   read_joints(person, pose);
   if (person.has("pointing")) pose.pointing.push_back(read_pointing(person.at("pointing")));
@@ -136,9 +144,7 @@ BodyPoses read_ground_truth(const std::string& path) {
   const json content = parse(path);
   const Located file{content, path};
   BodyPoses truth;
-  const Located utime = file.at("utime");
-  if (!utime.value.is_number_integer()) utime.fail("is not a whole number");
-  truth.stamp.utime = utime.value.get<std::int64_t>();
+  truth.stamp.utime = read_integer<std::int64_t>(file.at("utime"));
   truth.stamp.gravity = read_gravity(file);
   const Located persons = file.at("persons");
   if (!persons.value.is_array()) persons.fail("is no list");

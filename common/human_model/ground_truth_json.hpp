@@ -12,8 +12,7 @@ namespace limbcast {
 /// - `stamp.utime` is the file's; `stamp.gravity` has its down and camera_height, source
 /// kRecording, where it
 ///   tells them, else kLevel.
-/// - `persons` in the file's order; `id` the file's where that is a whole number, else the place,
-/// from 1;
+/// - `persons` in the file's order; `id` the file's where that is a number, else the place, from 1;
 ///   `confidence` 1.
 /// - A joint is `valid` where its position is known, seen or not; its `confidence` is 1 where it is
 /// visible (in

@@ -10,6 +10,7 @@
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/lcm_url.hpp"
+#include "common/lcm_io/log_file.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -21,9 +22,18 @@ constexpr std::chrono::milliseconds kNetworkPeriod{200};
 /// How often the group is joined anew, in case the device or the route has changed.
 constexpr std::chrono::seconds kMembershipPeriod{1};
 
+/// Of a log that is played. LCM would say on stderr that it cannot be, and we blame the network;
+/// one that is written (mode=w) need not be there.
+void check_log_of(const std::string& url) {
+  static const std::string kKind = "file://";
+  if (url.rfind(kKind, 0) != 0 || url.find("mode=") != std::string::npos) return;
+  LogReader(url.substr(kKind.size(), url.find('?') - kKind.size()));
+}
+
 /// What LCM is started with.
 std::string url_within_limits(const std::string& url) {
   const std::string wanted = effective_url(url);
+  check_log_of(wanted);
   const auto limit = receive_buffer_limit();
   if (!limit) return wanted;
   std::string given = with_receive_buffer_of_at_most(*limit, wanted);

@@ -4,12 +4,20 @@
 #include <nlohmann/json.hpp>
 
 #include "common/input_error.hpp"
+#include "common/whole_number.hpp"
 
 namespace limbcast::pose_json {
 namespace {
 
 [[noreturn]] void fail(const std::string& where, const std::string& key, const std::string& found) {
   throw InputError(where + ": '" + key + "' " + found);
+}
+
+template <class Integer>
+Integer to_integer(const nlohmann::json& value, const std::string& key, const std::string& where) {
+  const auto number = whole_number<Integer>(value);
+  if (!number) fail(where, key, "must be " + whole_number_text<Integer>() + ", is " + value.dump());
+  return *number;
 }
 
 }  // namespace
@@ -24,9 +32,14 @@ const nlohmann::json& required(const nlohmann::json& object, const std::string& 
 
 std::int64_t integer(const nlohmann::json& object, const std::string& key,
                      const std::string& where) {
-  const nlohmann::json& value = required(object, key, where);
-  if (!value.is_number_integer()) fail(where, key, "must be a whole number");
-  return value.get<std::int64_t>();
+  return to_integer<std::int64_t>(required(object, key, where), key, where);
+}
+
+std::int32_t integer_or(const nlohmann::json& object, const std::string& key,
+                        std::int32_t otherwise, const std::string& where) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return otherwise;
+  return to_integer<std::int32_t>(*found, key, where);
 }
 
 Eigen::Vector3f vector3(const nlohmann::json& value, const std::string& what,
@@ -60,7 +73,9 @@ float number_or(const nlohmann::json& object, const std::string& key, float othe
   const auto found = object.find(key);
   if (found == object.end() || found->is_null()) return otherwise;
   if (!found->is_number()) fail(where, key, "must be a number");
-  return found->get<float>();
+  const auto number = found->get<float>();
+  if (!std::isfinite(number)) fail(where, key, "is not finite");
+  return number;
 }
 
 }  // namespace limbcast::pose_json

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/input_file.hpp"
+#include "common/joined.hpp"
 #include "common/pose_json/json_fields.hpp"
 #include "common/units.hpp"
 
@@ -82,6 +83,15 @@ Pointing read_pointing(const nlohmann::json& object, const std::string& where) {
   return arm;
 }
 
+/// A name that is mistyped would be a joint that was left out.
+void check_joint_names(const nlohmann::json& joints, const std::string& where) {
+  for (const auto& [name, value] : joints.items()) {
+    if (!joint_from_name(name))
+      throw InputError(where + ": '" + name + "' is no joint, must be one of " +
+                       joined(std::vector<std::string>(kJointNames.begin(), kJointNames.end())));
+  }
+}
+
 void read_joints(const nlohmann::json& object, const std::string& where, BodyPose& person) {
   const nlohmann::json& joints = required(object, "joints", where);
   if (!joints.is_object()) throw InputError(where + ": 'joints' must be a JSON object");
@@ -89,6 +99,8 @@ void read_joints(const nlohmann::json& object, const std::string& where, BodyPos
   const nlohmann::json sigmas = object.value("joint_sigma", nlohmann::json::object());
   if (!confidences.is_object() || !sigmas.is_object())
     throw InputError(where + ": 'joint_confidence' and 'joint_sigma' must be JSON objects");
+  for (const nlohmann::json* named : {&joints, &confidences, &sigmas})
+    check_joint_names(*named, where);
   for (int i = 0; i < kJointCount; ++i) {
     const std::string name(kJointNames[i]);
     const auto found = joints.find(name);
@@ -104,8 +116,7 @@ void read_joints(const nlohmann::json& object, const std::string& where, BodyPos
 BodyPose read_person(const nlohmann::json& object, const std::string& where) {
   BodyPose person;
   read_joints(object, where, person);
-  const auto id = object.find("id");
-  if (id != object.end() && id->is_number_integer()) person.id = id->get<std::int32_t>();
+  person.id = integer_or(object, "id", 0, where);
   person.error = number_or(object, "error", 0.0F, where);
   person.confidence = number_or(object, "confidence", 0.0F, where);
   const auto pointing = object.find("pointing");
@@ -159,6 +170,7 @@ std::vector<BodyPoses> read_file(const std::string& path) {
   const bool is_open = file.is_open();
   std::vector<BodyPoses> frames = read_lines(file, path);
   if (!is_open || file.bad()) throw InputError(path + ": cannot be read; " + kRemedy);
+  if (frames.empty()) throw InputError(path + ": holds no frame; " + kRemedy);
   return frames;
 }
 

@@ -21,7 +21,8 @@ std::string to_line(const BodyPoses& poses);
 /// in the InputError that a wrong line throws.
 BodyPoses from_line(const std::string& line, const std::string& where);
 
-/// All lines of a file; empty ones are passed over. What is thrown also says what to give instead.
+/// All lines of a file; empty ones are passed over. What is thrown, for a file without any line
+/// too, also says what to give instead.
 std::vector<BodyPoses> read_lines(std::istream& in, const std::string& name);
 std::vector<BodyPoses> read_file(const std::string& path);
 

@@ -37,15 +37,32 @@ using Pipeline = std::unique_ptr<GstElement, StopAndRelease>;
 
 const std::string kTry = "; try it with gst-launch-1.0 and a sink (package gstreamer1.0-tools)";
 
+/// Of GObject, in this thread: that a property cannot take a value, and goes without it.
+thread_local std::string warning;
+
+void keep_warning(const gchar* /*domain*/, GLogLevelFlags /*level*/, const gchar* text,
+                  gpointer /*unused*/) {
+  warning = text;
+}
+
+/// Else they go to stderr only.
+void keep_warnings() {
+  [[maybe_unused]] static const guint handler =
+      g_log_set_handler("GLib-GObject", G_LOG_LEVEL_WARNING, &keep_warning, nullptr);
+  warning.clear();
+}
+
 Pipeline parse(const std::string& name, const std::string& text) {
   constexpr auto kFlags =
       static_cast<GstParseFlags>(GST_PARSE_FLAG_FATAL_ERRORS | GST_PARSE_FLAG_PLACE_IN_BIN);
+  keep_warnings();
   GError* failure = nullptr;
   if (gst_init_check(nullptr, nullptr, &failure) != FALSE) {
     GstElement* const bin = gst_parse_launch_full(text.c_str(), nullptr, kFlags, &failure);
     if (bin != nullptr) {
       Pipeline pipeline(gst_pipeline_new(nullptr));
       gst_bin_add(GST_BIN(pipeline.get()), bin);
+      if (!warning.empty()) throw InputError(name + ": " + warning + kTry);
       return pipeline;
     }
   }

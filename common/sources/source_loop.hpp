@@ -8,10 +8,10 @@
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
+#include "common/lcm_io/whole_log.hpp"
 #include "common/sources/frame_source.hpp"
 #include "common/sources/pacer.hpp"
 #include "common/sources/source_process.hpp"
-#include "common/whole_file.hpp"
 
 namespace limbcast {
 
@@ -70,33 +70,29 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
 
 template <class Frame>
 void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std::string& path) {
-  // An earlier log is kept until this one is whole.
-  const std::string unfinished = unfinished_file(path);
-  const std::string what_is_left = unfinished + " holds what was sent so far";
-  std::optional<lcm_io::LogWriter> log;
+  lcm_io::WholeLog log(path);
   try {
     while (!source.ended() && !lcm_io::stop_requested()) {
       std::optional<Frame> frame = source.next();
       if (!frame) continue;
-      if (!log) log.emplace(unfinished);
-      Outlet outlet(*log);
+      Outlet outlet(log.writer());
       sender.send(outlet, std::move(*frame));
     }
   } catch (...) {
-    if (log) config::log(config::LogLevel::kWarning, what_is_left);
+    if (log.begun()) config::log(config::LogLevel::kWarning, log.what_is_left("sent"));
     throw;
   }
   if (!source.problem().empty()) config::log(config::LogLevel::kError, source.problem());
-  if (log) log->close();
+  log.close();
   // A live source has no end: to be told to is how its recording is complete.
   if (source.ended() || source.live()) {
-    if (!log) throw std::runtime_error(path + ": was not written, as no frame came");
-    return finish_file(path);
+    if (!log.begun()) throw std::runtime_error(path + ": was not written, as no frame came");
+    return log.finish();
   }
   const std::optional<std::int64_t> num_frames = source.num_frames();
   throw std::runtime_error("interrupted: " + std::to_string(sender.num_sent()) +
                            (num_frames ? " of " + std::to_string(*num_frames) : "") + " frames; " +
-                           (log ? what_is_left : path + " was not written"));
+                           log.what_is_left("sent"));
 }
 
 /// Sends the frames of the source until it ends or the program is told to: a recording at its rate,

@@ -7,6 +7,7 @@
 
 #include "common/input_error.hpp"
 #include "common/sources/capture_time.hpp"
+#include "common/sources/ffmpeg_video.hpp"
 #include "common/sources/pipeline_reader.hpp"
 #include "common/sources/v4l2_camera.hpp"
 #include "common/sources/v4l2_device.hpp"
@@ -43,8 +44,8 @@ class VideoReader : public FrameReader {
 };
 
 cv::VideoCapture open_stream(const std::string& url) {
-  cv::VideoCapture capture(url, cv::CAP_FFMPEG);
-  if (!capture.isOpened()) throw InputError(url + ": cannot be opened; is it sending?");
+  cv::VideoCapture capture;
+  open_by_ffmpeg(capture, url, "check its address, and whether it is sending");
   return capture;
 }
 

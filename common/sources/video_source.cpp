@@ -4,17 +4,14 @@
 #include <utility>
 
 #include "common/input_file.hpp"
+#include "common/sources/ffmpeg_video.hpp"
 
 namespace limbcast {
 namespace {
 
 void open_video(cv::VideoCapture& video, const std::string& path) {
   check_is_file(path, "give a video file");
-  if (!video.open(path, cv::CAP_FFMPEG)) {
-    throw InputError(path +
-                     ": cannot be opened as a video; give a video file, an LCM log, a folder of "
-                     "pictures or a camera");
-  }
+  open_by_ffmpeg(video, path, "give a video file, an LCM log, a folder of pictures or a camera");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "common/formatted.hpp"
 #include "common/input_error.hpp"
 
 namespace limbcast::laser_scanner {
@@ -59,18 +60,33 @@ float read_number(const Place& place, const std::uint8_t* row) {
                    : static_cast<float>(load<std::uint64_t>(bytes));
 }
 
+/// Packed colours use all 32 bits, with or without a sign.
+bool fits(const Column& column, double value) {
+  if (column.kind == NumberKind::kFloat) return true;
+  const int bits = 8 * column.size;
+  const bool may_be_negative = column.kind == NumberKind::kSigned || column.size == 4;
+  const bool may_use_all_bits = column.kind == NumberKind::kUnsigned || column.size == 4;
+  return value >= (may_be_negative ? -std::exp2(bits - 1) : 0.0) &&
+         value < std::exp2(may_use_all_bits ? bits : bits - 1);
+}
+
+template <class Signed, class Unsigned>
+void store_whole(double value, std::vector<std::uint8_t>& bytes) {
+  value < 0.0 ? store<Signed>(value, bytes) : store<Unsigned>(value, bytes);
+}
+
+/// One that fits.
 void store_number(const Column& column, double value, std::vector<std::uint8_t>& bytes) {
   if (column.kind == NumberKind::kFloat) {
     column.size == 8 ? store<double>(value, bytes) : store<float>(value, bytes);
   } else if (column.size == 1) {
-    store<std::uint8_t>(value, bytes);
+    store_whole<std::int8_t, std::uint8_t>(value, bytes);
   } else if (column.size == 2) {
-    store<std::int16_t>(value, bytes);
+    store_whole<std::int16_t, std::uint16_t>(value, bytes);
   } else if (column.size == 4) {
-    // Packed colours use all 32 bits.
-    store<std::uint32_t>(value < 0.0 ? value + 4294967296.0 : value, bytes);
+    store_whole<std::int32_t, std::uint32_t>(value, bytes);
   } else {
-    store<std::int64_t>(value, bytes);
+    store_whole<std::int64_t, std::uint64_t>(value, bytes);
   }
 }
 
@@ -127,6 +143,14 @@ std::vector<const Column*> columns_of_numbers(const PointTable& table) {
   for (const Column& column : table.columns)
     columns.insert(columns.end(), static_cast<std::size_t>(column.count), &column);
   return columns;
+}
+
+[[noreturn]] void refuse_number(const Column& column, double number, std::size_t row,
+                                const std::string& where) {
+  throw InputError(
+      formatted("%s: row %zu: '%s' is %.15g, its header tells whole numbers of %d bytes",
+                where.c_str(), row, column.name.c_str(), number, column.size) +
+      (column.kind == NumberKind::kUnsigned ? " without a sign" : "") + "; correct one of them");
 }
 
 /// Puts those between `begin` and `end` in place of what `numbers` holds.
@@ -211,7 +235,10 @@ std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::strin
                        std::to_string(numbers.size()) + " numbers, its header tells " +
                        std::to_string(columns.size()) + "; write it again or correct it");
     }
-    for (std::size_t i = 0; i < numbers.size(); ++i) store_number(*columns[i], numbers[i], bytes);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!fits(*columns[i], numbers[i])) refuse_number(*columns[i], numbers[i], row, where);
+      store_number(*columns[i], numbers[i], bytes);
+    }
   }
   return bytes;
 }

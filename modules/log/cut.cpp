@@ -6,14 +6,18 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "common/config/options.hpp"
 #include "common/config/output_file.hpp"
 #include "common/formatted.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
+#include "common/lcm_io/whole_log.hpp"
 #include "common/units.hpp"
 #include "modules/log/message_types.hpp"
+#include "modules/log/next_of.hpp"
 
 namespace limbcast::logs {
 namespace {
@@ -37,7 +41,7 @@ class Selection {
   explicit Selection(const CutOptions& options)
       : options_(options), by_frame_(options.from_frame > 0 || options.to_frame >= 0) {
     lcm_io::LogReader reader(options.in);
-    while (const auto event = reader.next()) {
+    while (const auto event = next_of(reader)) {
       if (begin_utime_ == kNever) begin_utime_ = event->utime;
       if (!by_frame_) break;
       const MessageSummary summary = summarize(*event);
@@ -103,23 +107,13 @@ class Calibrations {
   std::map<std::pair<std::string, std::string>, LogEvent> last_;
 };
 
-/// A log that is made when the first event comes, so that nothing to keep makes no empty log.
-class LateWriter {
- public:
-  explicit LateWriter(std::string path) : path_(std::move(path)) {}
-  lcm_io::LogWriter& get() {
-    if (!writer_) writer_.emplace(path_);
-    return *writer_;
-  }
-  void close(const std::string& reason_if_empty) {
-    if (!writer_) throw config::UsageError(reason_if_empty);
-    writer_->close();
-  }
-
- private:
-  std::string path_;
-  std::optional<lcm_io::LogWriter> writer_;
-};
+void finish(lcm_io::WholeLog& out, const std::string& reason_if_empty) {
+  out.close();
+  if (lcm_io::stop_requested())
+    throw std::runtime_error("interrupted; " + out.what_is_left("copied"));
+  if (!out.begun()) throw config::UsageError(reason_if_empty);
+  out.finish();
+}
 
 void add_losses(const lcm_io::LogReader& reader, CopySummary& summary) {
   summary.torn_bytes += reader.torn_bytes();
@@ -186,8 +180,8 @@ CopySummary cut(const CutOptions& options) {
   Calibrations calibrations;
   CopySummary summary;
   lcm_io::LogReader reader(options.in);
-  LateWriter out(options.out);
-  while (const auto event = reader.next()) {
+  lcm_io::WholeLog out(options.out);
+  while (const auto event = next_of(reader)) {
     ++summary.events_read;
     if (!selection.keeps(*event)) {
       const bool may_help = summary.events_kept == 0 && options.keep_calibration;
@@ -195,15 +189,15 @@ CopySummary cut(const CutOptions& options) {
       continue;
     }
     for (const LogEvent& calibration : calibrations.take()) {
-      out.get().copy(calibration);
+      out.writer().copy(calibration);
       ++summary.events_kept;
     }
-    out.get().copy(*event);
+    out.writer().copy(*event);
     ++summary.events_kept;
   }
   add_losses(reader, summary);
-  out.close(options.in +
-            ": holds nothing of what shall be kept; limbcast-log info shows what it has");
+  finish(out,
+         options.in + ": holds nothing of what shall be kept; limbcast-log info shows what it has");
   return summary;
 }
 
@@ -213,18 +207,18 @@ CopySummary merge(const MergeOptions& options) {
   for (const std::string& path : options.in) heads.emplace_back(path);
   Doubles doubles;
   CopySummary summary;
-  LateWriter out(options.out);
+  lcm_io::WholeLog out(options.out);
   while (const auto next = earliest(heads)) {
     Head& head = heads[*next];
     ++summary.events_read;
     if (!options.drop_doubles || !doubles.is_double(*head.event, *next)) {
-      out.get().write(*head.event);
+      out.writer().write(*head.event);
       ++summary.events_kept;
     }
-    head.event = head.reader->next();
+    head.event = next_of(*head.reader);
   }
   for (const Head& head : heads) add_losses(*head.reader, summary);
-  out.close(options.in.front() + ": holds no whole event");
+  finish(out, options.in.front() + ": holds no whole event");
   return summary;
 }
 

@@ -29,7 +29,8 @@ struct CopySummary {
 
 /// Copies that part: bytes, times, numbers and order of the events stay. Throws config::UsageError
 /// where IN is no log, OUT cannot be made or is IN, the part ends before it begins, or nothing
-/// would be kept.
+/// would be kept. OUT takes its place when it is whole (lcm_io::WholeLog): std::runtime_error where
+/// the program is told to end before, or OUT cannot be written to its end.
 CopySummary cut(const CutOptions& options);
 
 struct MergeOptions {

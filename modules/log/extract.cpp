@@ -23,11 +23,14 @@
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/depth_images_codec.hpp"
 #include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
 #include "common/pose_json/pose_lines.hpp"
+#include "common/whole_file.hpp"
 #include "modules/log/extracted_files.hpp"
 #include "modules/log/message_types.hpp"
+#include "modules/log/next_of.hpp"
 
 namespace limbcast::logs {
 namespace {
@@ -116,7 +119,8 @@ class FrameWriter {
   std::int64_t finish() {
     std::sort(stamps_.begin(), stamps_.end(),
               [](const Stamp& a, const Stamp& b) { return a.utime < b.utime; });
-    write_timestamps(options_.folder + "/timestamps.csv", stamps_);
+    // Without a frame, as where the program was told to end, the folder is no recording.
+    if (!stamps_.empty()) write_timestamps(options_.folder + "/timestamps.csv", stamps_);
     for (const auto& [utime, truth] : truths_)
       if (written_.count(utime) > 0)
         write_truth(options_.folder + "/" + frame_name(truth.stamp) + "_gt.json", truth);
@@ -167,7 +171,7 @@ class FrameWriter {
   std::map<std::int64_t, BodyPoses> truths_;
 };
 
-/// Writes poses as lines, a file a channel.
+/// Writes poses as lines, a file a channel, which takes its place when it is whole.
 class PoseWriter {
  public:
   explicit PoseWriter(const ExtractOptions& options) : options_(options) {
@@ -191,10 +195,11 @@ class PoseWriter {
     for (auto& [channel, file] : files_) {
       file.close();
       if (!file) throw cannot_write(channel);
+      if (!lcm_io::stop_requested()) finish_file(path_of(channel));
     }
-    if (lines_ == 0 && !other_sensors_.empty()) throw no_such_sensor(options_, other_sensors_);
-    if (lines_ == 0) throw UsageError(options_.in + ": holds no poses; limbcast-replay adds them");
-    return lines_;
+    if (lines_ > 0 || lcm_io::stop_requested()) return lines_;
+    if (!other_sensors_.empty()) throw no_such_sensor(options_, other_sensors_);
+    throw UsageError(options_.in + ": holds no poses; limbcast-replay adds them");
   }
 
  private:
@@ -205,7 +210,7 @@ class PoseWriter {
     if (!is_new)
       throw UsageError(options_.in + ": poses of '" + owner->second + "' and '" + channel +
                        "' would both be " + owner->first + "; choose one with --channel");
-    file.open(path_of(channel));
+    file.open(unfinished_file(path_of(channel)));
     return file;
   }
   std::string path_of(const std::string& channel) const {
@@ -226,7 +231,7 @@ template <class Writer>
 ExtractSummary extract_with(Writer& writer, const ExtractOptions& options) {
   ExtractSummary summary;
   lcm_io::LogReader reader(options.in);
-  while (const auto event = reader.next()) {
+  while (const auto event = next_of(reader)) {
     if (!options.channels.takes(event->channel)) continue;
     try {
       writer.take(*event);
@@ -235,6 +240,9 @@ ExtractSummary extract_with(Writer& writer, const ExtractOptions& options) {
     }
   }
   summary.frames = writer.finish();
+  if (lcm_io::stop_requested())
+    throw std::runtime_error("interrupted; " + options.folder + " holds the " +
+                             std::to_string(summary.frames) + " frames extracted so far");
   summary.torn_bytes = reader.torn_bytes();
   summary.damaged_bytes = reader.damaged_bytes();
   return summary;

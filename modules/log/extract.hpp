@@ -35,7 +35,8 @@ struct ExtractSummary {
 ///
 /// Throws config::UsageError where IN is no log, holds nothing of the kind, or images or clouds of
 /// several sensors and none is chosen, and where the folder holds a recording; std::runtime_error
-/// where a file cannot be written.
+/// where a file cannot be written, or the program is told to end before the log does: then the
+/// folder is a recording of the frames so far, and poses stand in CHANNEL.jsonl.unfinished.
 ExtractSummary extract(const ExtractOptions& options);
 
 }  // namespace limbcast::logs

@@ -4,6 +4,7 @@
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
 #include "common/config/version.hpp"
+#include "common/lcm_io/module.hpp"
 #include "modules/log/cut.hpp"
 #include "modules/log/extract.hpp"
 #include "modules/log/log_info.hpp"
@@ -94,6 +95,7 @@ void run_cut(int argc, const char* const* argv) {
   if (!parser.parse(argc, argv)) return;
   config::configure_log("log", parser.common().log_level);
   options.channels = channels.filter();
+  lcm_io::install_signal_handlers();
   report(cut(options), options.out);
 }
 
@@ -112,6 +114,7 @@ void run_merge(int argc, const char* const* argv) {
     throw config::UsageError("command line: " + options.in.front() +
                              " alone gives nothing to merge; give OUT.log and two logs or more");
   config::configure_log("log", parser.common().log_level);
+  lcm_io::install_signal_handlers();
   report(merge(options), options.out);
 }
 
@@ -140,6 +143,7 @@ void run_extract(int argc, const char* const* argv) {
   config::configure_log("log", parser.common().log_level);
   options.what = extracted_named(what);
   options.channels = channels.filter();
+  lcm_io::install_signal_handlers();
   const ExtractSummary summary = extract(options);
   warn_of_losses(summary.torn_bytes, summary.damaged_bytes);
   if (summary.malformed > 0)

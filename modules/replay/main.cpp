@@ -107,9 +107,8 @@ void run(int argc, const char* const* argv) {
   const Clock::time_point start = Clock::now();
   const ReplaySummary summary = replay(options.replay, options.chain, shown_progress(start));
   report(summary, options.replay.in, seconds_since(start));
-  if (summary.interrupted)
-    throw std::runtime_error("interrupted; " + options.replay.out +
-                             " holds what was replayed so far");
+  if (!summary.left_by_interrupt.empty())
+    throw std::runtime_error("interrupted; " + summary.left_by_interrupt);
   if (summary.failed > 0)
     throw std::runtime_error(std::to_string(summary.failed) +
                              " frames could not be worked on; the first: " + summary.first_failure);

@@ -11,6 +11,7 @@
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/module.hpp"
+#include "common/lcm_io/whole_log.hpp"
 #include "modules/replay/ordered_workers.hpp"
 
 namespace limbcast::replay {
@@ -39,7 +40,7 @@ class Replay {
   ReplaySummary run(const Progress& progress) {
     survey();
     lcm_io::LogReader reader(options_.in);
-    lcm_io::LogWriter writer(options_.out);
+    lcm_io::WholeLog log(options_.out);
     OrderedWorkers<FrameResult> workers(options_.threads);
     const std::size_t max_pending = kPendingPerThread * static_cast<std::size_t>(options_.threads);
     while (!lcm_io::stop_requested()) {
@@ -47,17 +48,23 @@ class Replay {
       if (!event) break;
       take_in(std::move(*event), workers);
       while (workers.pending() > max_pending || oldest_is_ready())
-        write_oldest(workers, writer, progress);
+        write_oldest(workers, log.writer(), progress);
     }
-    while (!waiting_.empty() && !lcm_io::stop_requested()) write_oldest(workers, writer, progress);
-    writer.close();
-    summary_.interrupted = lcm_io::stop_requested();
+    while (!waiting_.empty() && !lcm_io::stop_requested())
+      write_oldest(workers, log.writer(), progress);
+    finish(log);
     summary_.torn_bytes = reader.torn_bytes();
     summary_.damaged_bytes = reader.damaged_bytes();
     return summary_;
   }
 
  private:
+  void finish(lcm_io::WholeLog& log) {
+    if (!lcm_io::stop_requested()) return log.finish();
+    log.close();
+    summary_.left_by_interrupt = log.what_is_left("replayed");
+  }
+
   /// An event of IN and whether results follow it.
   struct Waiting {
     LogEvent event;

@@ -25,7 +25,8 @@ struct ReplaySummary {
   std::string first_malformed, first_failure;
   std::int64_t torn_bytes = 0;     ///< of IN behind its last whole message
   std::int64_t damaged_bytes = 0;  ///< of IN between its messages
-  bool interrupted = false;
+  /// Where what was replayed stands, if the program was told to end before the whole log was.
+  std::string left_by_interrupt;
   /// Stereo cameras whose images have no calibration, so that their clouds or segments were taken.
   std::vector<std::string> uncalibrated;
 };
@@ -39,8 +40,8 @@ using Progress = std::function<void(int done, int total)>;
 /// earlier run had made (clouds, segments, poses of the same sensor, tracked poses, status
 /// messages). A frame that comes before its camera's calibration takes the first one that follows.
 ///
-/// Throws config::UsageError where IN cannot be used or OUT cannot be made, std::runtime_error
-/// where OUT cannot be written to its end.
+/// OUT takes its place when it is whole (lcm_io::WholeLog). Throws config::UsageError where IN
+/// cannot be used or OUT cannot be made, std::runtime_error where it cannot be written to its end.
 ReplaySummary replay(const ReplayOptions& options, const ChainOptions& chain,
                      const Progress& progress);
 

@@ -6,8 +6,8 @@
 
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"
-#include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
+#include "common/lcm_io/whole_log.hpp"
 #include "modules/simulate/frame_folder.hpp"
 #include "modules/simulate/frame_messages.hpp"
 #include "modules/simulate/options.hpp"
@@ -39,31 +39,31 @@ int make_frames(const SimulateOptions& options, const SimulatorParams& params, c
   return i;
 }
 
-/// `written`: to where. What is not complete is no success.
-void check_complete(int num_made, const SimulateOptions& options, const std::string& written) {
+/// What is not complete is no success. `what_is_left`: where it stands.
+void check_complete(int num_made, const SimulateOptions& options, const std::string& what_is_left) {
   if (num_made == options.frames) return;
   throw std::runtime_error("interrupted: " + std::to_string(num_made) + " of " +
-                           std::to_string(options.frames) + " frames; " + written +
-                           " holds what was made so far");
+                           std::to_string(options.frames) + " frames; " + what_is_left);
 }
 
 void write_log(const SimulateOptions& options, const SimulatorParams& params,
                const Channels& channels) {
   config::check_output_file("--log", options.log);
-  lcm_io::LogWriter log(options.log);
-  Outlet outlet(log);
+  lcm_io::WholeLog log(options.log);
   const int num_made = make_frames(options, params, [&](const SimulatedFrame& frame, int i) {
+    Outlet outlet(log.writer());
     FrameMessages(params, frame, options.sensor_name, i).send(channels, outlet);
   });
   log.close();
-  check_complete(num_made, options, options.log);
+  check_complete(num_made, options, log.what_is_left("made"));
+  log.finish();
 }
 
 void write_folder(const SimulateOptions& options, const SimulatorParams& params) {
   FrameFolder folder(options.output, params);
   const int num_made =
       make_frames(options, params, [&](const SimulatedFrame& frame, int) { folder.write(frame); });
-  check_complete(num_made, options, options.output);
+  check_complete(num_made, options, options.output + " holds what was made so far");
 }
 
 /// Frames take longer to make than a sensor takes: they are made first, then sent at the sensor's

@@ -1,5 +1,6 @@
 #include "modules/viewer/window.hpp"
 
+#include <QtGlobal>
 #include <cstdlib>
 #include <map>
 #include <opencv2/highgui.hpp>
@@ -28,17 +29,28 @@ const std::map<int, Look> kLookKeys = {
     {'+', Look::kNearer}, {'=', Look::kNearer}, {'-', Look::kFarther}, {'r', Look::kAsAtStart}};
 constexpr int kSceneAloneKey = 'v';
 
+const std::string kRemedy = "; write files with --png DIR or --video FILE";
+
 bool has_display() {
   return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+}
+
+/// Where no display answers Qt says so in several lines and aborts the program.
+void end_where_qt_would(QtMsgType type, const QMessageLogContext& /*place*/,
+                        const QString& /*text*/) {
+  if (type != QtFatalMsg) return;
+  std::_Exit(config::run_program("limbcast-viewer", [] {
+    throw config::UsageError("the display does not answer, check DISPLAY" + kRemedy);
+  }));
 }
 
 }  // namespace
 
 Window::Window(const Orbit& orbit) : control_(orbit) {
-  if (!has_display())
-    throw config::UsageError(
-        "there is no display for a window; write files with --png DIR or --video FILE");
+  if (!has_display()) throw config::UsageError("there is no display for a window" + kRemedy);
+  const QtMessageHandler usual = qInstallMessageHandler(end_where_qt_would);
   cv::namedWindow(kTitle, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO | cv::WINDOW_GUI_NORMAL);
+  qInstallMessageHandler(usual);
   cv::resizeWindow(kTitle, kStartWidth_px, kStartHeight_px);
   cv::setMouseCallback(kTitle, &Window::on_mouse, this);
   wheel_ = std::make_unique<Wheel>([this](float notches) {

@@ -181,6 +181,13 @@ TEST(Bus, PassesOnWhatAHandlerThrows) {
 
 TEST(Bus, SaysThatAUrlIsUnusable) { EXPECT_THROW(Bus("nonsense://"), config::UsageError); }
 
+TEST(Bus, SaysThatALogCannotBePlayed) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(test::error_of<config::UsageError>([] { Bus("file:///none/run.log?speed=0"); }),
+            "/none/run.log: no such file; give a log made by lcm-logger");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(Bus, SaysThatNoServerAnswers) {
   // Nobody serves LCM on the port of the "discard" service.
   const std::string error = test::error_of<config::UsageError>([] { Bus("tcpq://127.0.0.1:9"); });

@@ -53,6 +53,14 @@ TEST(OutputFile, IsRefusedWhereItIsRead) {
   EXPECT_NO_THROW(check_output_file("--json", folder / "new.log", {in}));
 }
 
+TEST(OutputFile, IsRefusedWhereWhatIsLeftOfAnEarlierRunIsRead) {
+  const TemporaryFolder folder;
+  const std::string left = folder.write("out.log.unfinished", "text");
+  EXPECT_EQ(
+      test::error_of<UsageError>([&] { check_output_file("OUT.log", folder / "out.log", {left}); }),
+      left + ": is what is read; choose another OUT.log");
+}
+
 TEST(OutputFile, IsRefusedWhereTheUserMayNotWrite) {
   const TemporaryFolder folder;
   constexpr auto kToLookAt = static_cast<std::filesystem::perms>(0555);

@@ -106,6 +106,22 @@ TEST_F(CloudFile, WithRingsThatAreNoneIsNamed) {
   EXPECT_THAT(ring_error("2.5"), HasSubstr("no number of a ring"));
 }
 
+TEST_F(CloudFile, OfTextHasNoNumberThatWouldBeWrapped) {
+  const auto with_ring = [](const std::string& type, const std::string& ring) {
+    return "VERSION 0.7\nFIELDS x y z ring\nSIZE 4 4 4 " + type.substr(1) + "\nTYPE F F F " +
+           type.substr(0, 1) + "\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 " +
+           ring + "\n";
+  };
+  EXPECT_THAT(error("a.pcd", with_ring("U2", "65537")),
+              HasSubstr("a.pcd: row 1: 'ring' is 65537, its header tells whole numbers of 2 bytes "
+                        "without a sign; correct one of them"));
+  EXPECT_THAT(error("a.pcd", with_ring("U1", "-1")), HasSubstr("'ring' is -1"));
+  EXPECT_THAT(error("a.pcd", with_ring("I1", "128")), HasSubstr("'ring' is 128"));
+  EXPECT_THAT(error("a.pcd", with_ring("U4", "99999999999")), HasSubstr("'ring' is 99999999999"));
+  for (const char* type : {"U2", "I4", "U8"})
+    EXPECT_EQ(read("a.pcd", with_ring(type, "65535")).rings, std::vector<std::uint16_t>{65535});
+}
+
 TEST_F(CloudFile, KeepsNoRingsWhereAPointHasNone) {
   const RawCloud cloud = read(
       "a.ply",

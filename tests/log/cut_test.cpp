@@ -132,6 +132,13 @@ TEST_F(Cut, ThatEndsBeforeItBeginsIsToldByItsOptions) {
   EXPECT_EQ(refusal_of(frames), "--from-frame is 30, must not be after --to-frame, 10");
 }
 
+TEST_F(Cut, ThatIsInterruptedLeavesAnEarlierLog) {
+  write_bytes(out_, {'o', 'l', 'd'});
+  EXPECT_EXIT(run_interrupted([this] { cut(options_); }), ::testing::ExitedWithCode(1),
+              "log: interrupted; " + out_ + " was not written\n");
+  EXPECT_EQ(bytes_of(out_).size(), 3U);
+}
+
 TEST_F(Cut, WorksFromTheCommandLine) {
   const auto run = test::run({test::program("limbcast-log"), "cut", in_, out_, "--from-frame", "2",
                               "--to-frame=3", "--keep-calibration=false"});
@@ -218,6 +225,19 @@ TEST_F(Merge, LosesNoLogWhereTheOneToWriteIsForgotten) {
   EXPECT_EQ(run.output, "limbcast-log: command line: " + b_ +
                             " alone gives nothing to merge; give OUT.log and two logs or more\n");
   EXPECT_EQ(lcm_io::LogReader(a_).next()->utime, 1);
+}
+
+TEST_F(Merge, ThatIsInterruptedLeavesAnEarlierLogAndKeepsWhatItHasCopied) {
+  write(a_, {{1, "a"}, {3, "c"}});
+  write(b_, {{2, "b"}, {4, "d"}});
+  write(out_, {{0, "earlier"}});
+  EXPECT_EXIT(run_interrupted([this] {
+                merge({out_, {a_, b_}, false});
+              }),
+              ::testing::ExitedWithCode(1),
+              "log: interrupted; " + out_ + ".unfinished holds what was copied so far\n");
+  EXPECT_EQ(merged_text(), "earlier");
+  EXPECT_EQ(events_in(out_ + ".unfinished").size(), 2U) << "the first ones were read already";
 }
 
 TEST_F(Merge, RefusesToOverwriteAnInput) {

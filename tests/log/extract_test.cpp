@@ -157,6 +157,24 @@ TEST_F(Extract, OfPosesDoesNotMixChannelsInAFile) {
       HasSubstr("'a/b' and 'a_b' would both be a_b.jsonl; choose one with --channel"));
 }
 
+TEST_F(Extract, OfPosesLeavesEarlierOnesWhereItFails) {
+  write_poses_on(log_, {"a/b"});
+  extract(options(log_, Extracted::kPoses));
+  const std::vector<char> earlier = bytes_of(out_ + "/a_b.jsonl");
+  write_poses_on(log_, {"a/b", "a/b", "a_b"});
+  EXPECT_THROW(extract(options(log_, Extracted::kPoses)), config::UsageError);
+  EXPECT_EQ(bytes_of(out_ + "/a_b.jsonl"), earlier);
+}
+
+TEST_F(Extract, ThatIsInterruptedIsNoSuccess) {
+  const std::string in = test::repository_file("logs/nobody.log");
+  EXPECT_EXIT(run_interrupted([&] { extract(options(in, Extracted::kImages)); }),
+              ::testing::ExitedWithCode(1),
+              "log: interrupted; " + out_ + " holds the 0 frames extracted so far\n");
+  EXPECT_FALSE(std::filesystem::exists(out_ + "/timestamps.csv"));
+  EXPECT_NO_THROW(extract(options(in, Extracted::kImages))) << "it may be done again";
+}
+
 TEST_F(Extract, RefusesAFolderThatHoldsARecording) {
   const ExtractOptions images =
       options(test::repository_file("logs/multi.log"), Extracted::kImages);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limbcast/module_status_t.hpp>
@@ -7,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "common/config/options.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
 
 namespace limbcast::logs {
 
@@ -72,6 +75,15 @@ inline std::vector<lcm_io::LogEvent> events_in(const std::string& path) {
   lcm_io::LogReader reader(path);
   while (auto event = reader.next()) events.push_back(std::move(*event));
   return events;
+}
+
+/// Ends with the program's exit code, but leaves the tests' folders.
+template <class Command>
+[[noreturn]] void run_interrupted(const Command& command) {
+  std::_Exit(config::run_program("log", [&command] {
+    lcm_io::request_stop();
+    command();
+  }));
 }
 
 inline bool same(const lcm_io::LogEvent& a, const lcm_io::LogEvent& b) {

@@ -12,12 +12,14 @@
 #include <limbcast/stereo_images_t.hpp>
 
 #include "common/lcm_io/bus.hpp"
+#include "common/lcm_io/log_file.hpp"
 #include "tests/support/child_process.hpp"
 
 namespace limbcast::test {
 namespace {
 
 using lcm_io::Keep;
+using ::testing::HasSubstr;
 
 /// How often a wait looks whether the program ended.
 constexpr std::chrono::milliseconds kLook{200};
@@ -87,6 +89,22 @@ TEST_P(SimulateProgram, PublishesItsFramesAndTheirTruthLive) {
   EXPECT_LT(truths[0].stamp.utime, truths[4].stamp.utime);
   simulate.signal(SIGTERM);
   EXPECT_EQ(simulate.wait(), 0) << simulate.output();
+}
+
+TEST(SimulatedLog, IsReadableBesideAnEarlierOneWhereItWasInterrupted) {
+  const std::string folder = temporary_folder("interrupted"), log = folder + "/in.log";
+  ASSERT_EQ(run(command("laser", {"--log", log})).exit_code, 0);
+  const auto earlier_bytes = std::filesystem::file_size(log);
+  ChildProcess simulate(command("laser", {"--log", log, "--frames", "100000"}),
+                        folder + "/output.txt");
+  while (simulate.output().find(" of 100000 frames made") == std::string::npos)
+    ASSERT_TRUE(simulate.running()) << simulate.output();
+  simulate.signal(SIGTERM);
+  EXPECT_EQ(simulate.wait(), 1);
+  EXPECT_THAT(simulate.output(),
+              HasSubstr(" of 100000 frames; " + log + ".unfinished holds what was made so far\n"));
+  EXPECT_EQ(std::filesystem::file_size(log), earlier_bytes);
+  EXPECT_EQ(lcm_io::LogReader(log + ".unfinished").next()->channel, "POINT_CLOUD");
 }
 
 TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {

@@ -18,8 +18,11 @@ namespace limbcast::spy {
 namespace {
 
 using lcm_io::LogEvent;
+using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 /// Messages can be lost on the way to lcm-spy, and a window takes its time: so often the log is
 /// played.
@@ -55,6 +58,36 @@ TEST(SpyScript, ExplainsItself) {
   const auto outcome = test::run({test::repository_file("modules/spy/limbcast-spy"), "--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("Usage: limbcast-spy [--lcm-url=URL]"));
+}
+
+TEST(SpyScript, TellsInOneLineThatThereIsNoDisplay) {
+  const auto end_on = [](const std::string& display) {
+    const std::string output = test::temporary_folder("no_display") + "/spy.txt";
+    test::ChildProcess spy({test::repository_file("modules/spy/limbcast-spy")}, output,
+                           {"DISPLAY=" + display});
+    EXPECT_EQ(spy.wait(), 2);
+    return spy.output();
+  };
+  const std::string remedy =
+      "); start it on a desktop or through ssh -X, or take limbcast-status and limbcast-viewer "
+      "--png\n";
+  EXPECT_EQ(end_on(""),
+            "limbcast-spy: there is no display for its window (DISPLAY is not set" + remedy);
+  EXPECT_THAT(end_on("/nowhere:1"),
+              AllOf(StartsWith("limbcast-spy: there is no display for its window (DISPLAY is "
+                               "/nowhere:1, Can't connect to X11 window server"),
+                    EndsWith(remedy)));
+}
+
+TEST(SpyOnADisplay, TellsInOneLineThatTheUrlIsWrong) {
+  if (!test::VirtualDisplay::available()) GTEST_SKIP() << "Xvfb, xdotool or ImageMagick is missing";
+  const test::VirtualDisplay display;
+  test::ChildProcess spy({test::repository_file("modules/spy/limbcast-spy"), "--lcm-url=nonsense"},
+                         test::temporary_folder("wrong_url") + "/spy.txt", {display.variable()});
+  EXPECT_EQ(spy.wait(), 2);
+  EXPECT_EQ(spy.output(),
+            "limbcast-spy: lcm-url 'nonsense': URLParser: Invalid URL: nonsense; write it like "
+            "udpm://239.255.76.67:7667?ttl=1\n");
 }
 
 TEST_F(RealLog, EveryTypeIsDecodedByLcmSpy) {

@@ -160,6 +160,17 @@ TEST(ViewerProgram, SaysWhenThereIsNothingToDraw) {
                         "limbcast-replay adds it"));
 }
 
+TEST(ViewerProgram, TellsInOneLineThatTheDisplayDoesNotAnswer) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, true);
+  test::ChildProcess viewer({test::program("limbcast-viewer"), folder / "out.log"},
+                            folder / "err.txt", {"DISPLAY=/nowhere:1"});
+  EXPECT_EQ(viewer.wait(), 2);
+  EXPECT_EQ(viewer.output(),
+            "limbcast-viewer: the display does not answer, check DISPLAY; write files with --png "
+            "DIR or --video FILE\n");
+}
+
 TEST(ViewerProgram, RefusesWhatIsNoLog) {
   const TemporaryFolder folder;
   folder.write("text.log", "no log at all, only words, and enough of them for a header");

@@ -206,6 +206,28 @@ TEST_F(StereoCalibrationCheck, RefusesSizesThatCannotBe) {
   EXPECT_THAT(error_with("image_height", "480.5"), HasSubstr("not a whole number"));
 }
 
+TEST_F(StereoCalibrationCheck, TellsLongNumbersAsTheyStandInTheFile) {
+  EXPECT_THAT(error_with("image_width", "99999999999"),
+              HasSubstr("'image_width' is 99999999999; must be 1 to 8192 px"));
+  // 2^32 + 480 would be wrapped to 480, 2^32 + 1 to 1.
+  EXPECT_THAT(error_with("image_height", "4294967776"), HasSubstr("is 4294967776; must be"));
+  EXPECT_THAT(error_with("sensor_height_m", "4294967297"),
+              HasSubstr("'sensor_height_m' is 4.29497e+09; must be"));
+  EXPECT_THAT(error_with("T", "[ -4294967296, 0, 0 ]"), HasSubstr("of 4.29497e+09 m"));
+  EXPECT_THAT(error_of_file("{\"image_width\": 99999999999}"),
+              HasSubstr("is 99999999999; must be"));
+  EXPECT_THAT(error_of_file("<?xml version=\"1.0\"?>\n<opencv_storage><image_width>99999999999"
+                            "</image_width></opencv_storage>\n"),
+              HasSubstr("is 99999999999; must be"));
+}
+
+TEST_F(StereoCalibrationCheck, TakesALongSerialNumberForNoSize) {
+  Entries entries = opencv_entries();
+  entries["camera_name"] = "740112071234";
+  entries["serials"] = "[ 740112071234,740112071235 ]";
+  EXPECT_NO_THROW(read_stereo_calibration(folder_.write("stereo.yml", yaml(entries))));
+}
+
 TEST_F(StereoCalibrationCheck, NamesEveryMissingKey) {
   for (const auto& [key, value] : opencv_entries()) {
     if (key == "D1" || key == "D2") continue;  // none = no distortion

@@ -97,6 +97,16 @@ TEST_F(GroundTruth, NamesWhatIsWrong) {
               HasSubstr("is no unit vector"));
 }
 
+TEST_F(GroundTruth, HasNoNumberThatWouldBeWrapped) {
+  EXPECT_THAT(error(R"({"utime": 5, "persons": [{"id": 4294967297, "joints": {}}]})"),
+              HasSubstr("a_gt.json: person 1: 'id': is not a whole number of 32 bits but "
+                        "4294967297; correct the truth file or remove it"));
+  EXPECT_THAT(error(R"({"utime": 5, "persons": [{"id": 1.5, "joints": {}}]})"),
+              HasSubstr("of 32 bits but 1.5"));
+  EXPECT_THAT(error(R"({"utime": 18446744073709551615, "persons": []})"),
+              HasSubstr("'utime': is not a whole number of 64 bits but 18446744073709551615"));
+}
+
 TEST_F(GroundTruth, IsNoFolder) {
   const std::string folder = folder_.path();
   EXPECT_EQ(error_of<InputError>([&] { read_ground_truth(folder); }),

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/input_error.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::pose_json {
 namespace {
@@ -136,6 +137,32 @@ TEST(PoseLines, ThatAreWrongAreNamedByFileLineAndField) {
   EXPECT_THAT(error_of(R"({"utime":1,"persons":[7]})"), HasSubstr("no JSON object"));
 }
 
+TEST(PoseLines, HaveNoNumberThatWouldBeWrapped) {
+  const std::string id = R"({"utime":1,"persons":[{"joints":{},"id":)";
+  EXPECT_EQ(error_of(id + "4294967297}]}"),
+            "poses.jsonl: line 7: 'id' must be a whole number of 32 bits, is 4294967297");
+  EXPECT_THAT(error_of(id + "-2147483649}]}"), HasSubstr("of 32 bits, is -2147483649"));
+  EXPECT_THAT(error_of(id + "99999999999999999999}]}"), HasSubstr("'id' must be a whole number"));
+  EXPECT_THAT(error_of(id + R"("D1"}]})"), HasSubstr("of 32 bits, is \"D1\""));
+  EXPECT_THAT(error_of(R"({"utime":18446744073709551615,"persons":[]})"),
+              HasSubstr("'utime' must be a whole number of 64 bits, is 18446744073709551615"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{},"confidence":1e99}]})"),
+              HasSubstr("'confidence' is not finite"));
+  EXPECT_EQ(from_line(id + "-2147483648}]}", "here").persons.at(0).id, -2147483648);
+  EXPECT_EQ(from_line(id + "null}]}", "here").persons.at(0).id, 0);
+}
+
+TEST(PoseLines, NameNoJointThatIsNone) {
+  EXPECT_EQ(error_of(R"({"utime":1,"persons":[{"joints":{"elbow_lft":[0,0,1]}}]})"),
+            "poses.jsonl: line 7: 'elbow_lft' is no joint, must be one of head, neck, chest, "
+            "pelvis, shoulder_left, shoulder_right, elbow_left, elbow_right, wrist_left, "
+            "wrist_right, hip_left, hip_right, knee_left, knee_right, ankle_left, ankle_right");
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{},"joint_confidence":{"nose":1}}]})"),
+              HasSubstr("'nose' is no joint"));
+  EXPECT_THAT(error_of(R"({"utime":1,"persons":[{"joints":{},"joint_sigma":{"hand":1}}]})"),
+              HasSubstr("'hand' is no joint"));
+}
+
 TEST(PoseLines, AreCountedWithEmptyLines) {
   std::istringstream in("{\"utime\":1,\"persons\":[]}\n\n{\"utime\":2}\n");
   EXPECT_THAT([&] { read_lines(in, "f"); },
@@ -153,6 +180,15 @@ TEST(PoseLines, ThatAreNoneAreToldWhereTheyComeFrom) {
 TEST(PoseLines, OfAMissingFileAreAnError) {
   EXPECT_THAT([] { read_file("/no/such/file.jsonl"); },
               testing::ThrowsMessage<InputError>(HasSubstr("/no/such/file.jsonl: cannot be read")));
+}
+
+TEST(PoseLines, OfAnEmptyFileAreAnError) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("poses.jsonl", "\n");
+  EXPECT_EQ(test::error_of<InputError>([&] { read_file(path); }),
+            path +
+                ": holds no frame; give a file that limbcast-export-poses wrote (with --format "
+                "json, its default)");
 }
 
 TEST(PoseLines, OfAFolderAreAnError) {

@@ -21,7 +21,10 @@ using test::grey_picture;
 using test::level_of;
 using test::stereo_format;
 using test::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 /// JPEG, twice, is not exact on flat pictures either.
 constexpr int kLevelTolerance = 3;
@@ -79,6 +82,29 @@ TEST(VideoSourceTest, RefusesOtherFiles) {
   const std::string text = folder.write("notes.txt", "this is no video");
   EXPECT_THAT(error_of<InputError>([&] { VideoSource(text, "", stereo_format(), {}); }),
               HasSubstr("notes.txt: cannot be opened as a video"));
+}
+
+TEST(VideoSourceTest, TellsFfmpegsReasonForATornFile) {
+  const TemporaryFolder folder;
+  // The head of a film that was cut off before its index.
+  const std::string torn =
+      folder.write("torn.mp4", std::string("\0\0\0\x14"
+                                           "ftypisom\0\0\0\0isom\0\0\0\x10mdat",
+                                           28));
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(error_of<InputError>([&] { VideoSource(torn, "", stereo_format(), {}); }),
+            torn +
+                ": cannot be opened as a video (moov atom not found); give a video file, an "
+                "LCM log, a folder of pictures or a camera");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Stream, OfAServerThatIsNotThereIsToldWithTheReasonAlone) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_THAT(error_of<InputError>([] { open_camera("rtsp://127.0.0.1:1/stream", {}); }),
+              AllOf(StartsWith("rtsp://127.0.0.1:1/stream: cannot be opened as a video ("),
+                    EndsWith("Connection refused); check its address, and whether it is sending")));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 SourceOptions options_for(const std::string& source) {
@@ -192,6 +218,10 @@ TEST_F(Pipeline, ThatCannotBeStartedIsNamed) {
               HasSubstr("gst:videotestsrc ! nosuchelement: no element \"nosuchelement\""));
   EXPECT_THAT(error_of_opening("gst:videotestsrc ! fakesink name=appsink", stereo_format()),
               HasSubstr("name=appsink: has no appsink"));
+  EXPECT_THAT(
+      error_of_opening("gst:videotestsrc num-buffers=-5", stereo_format()),
+      HasSubstr("num-buffers=-5: value \"-5\" of type 'gint' is invalid or out of range for "
+                "property 'num-buffers'"));
 }
 
 TEST_F(Pipeline, ThatIsLiveMayWaitForItsSender) {

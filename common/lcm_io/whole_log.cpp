@@ -1,0 +1,27 @@
+#include "common/lcm_io/whole_log.hpp"
+
+#include "common/whole_file.hpp"
+
+namespace limbcast::lcm_io {
+
+WholeLog::WholeLog(const std::string& path) : path_(path), unfinished_(unfinished_file(path)) {}
+
+LogWriter& WholeLog::writer() {
+  if (!writer_) writer_.emplace(unfinished_);
+  return *writer_;
+}
+
+void WholeLog::close() {
+  if (writer_) writer_->close();
+}
+
+void WholeLog::finish() {
+  close();
+  finish_file(path_);
+}
+
+std::string WholeLog::what_is_left(const std::string& done) const {
+  return begun() ? unfinished_ + " holds what was " + done + " so far" : path_ + " was not written";
+}
+
+}  // namespace limbcast::lcm_io
