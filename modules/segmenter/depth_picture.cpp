@@ -17,6 +17,7 @@ std::optional<DepthPicture> draw_depths(const Scene& scene, const LabelledPerson
   if (!camera) return std::nullopt;
   picture.camera = *camera;
   picture.middle_m = middle_in_picture_m.z();
+  picture.of_scan = !scene.cloud.organized();
   picture.channels.create(kDepthPictureSide_px, kDepthPictureSide_px);
   picture.channels.setTo(cv::Scalar::all(0.0));
   for (int v = 0; v < kDepthPictureSide_px; ++v) {

@@ -22,6 +22,7 @@ struct DepthPicture {
   PinholeCamera camera;
   Eigen::Matrix3f frame_from_picture;  ///< rotation to the cloud's frame
   float middle_m = 0.0F;               ///< how far away the middle is, along the optical axis
+  bool of_scan = false;                ///< of a range finder's cloud, not of a camera's
 };
 
 /// Draws what the sensor saw around a person's head. An arm that was cut off as something else is

@@ -13,13 +13,14 @@
 #include "modules/segmenter/network.hpp"
 #include "modules/segmenter/range_image.hpp"
 
-// The file in network_files.S.
+// The files in network_files.S.
 extern "C" const char limbcast_depth_pose[];
+extern "C" const char limbcast_scan_depth_pose[];
 
 namespace limbcast::segmenter {
 namespace {
 
-// The network's output: cells of a grid over the picture, what a cell tells of each joint, and a
+// The networks' output: cells of a grid over the picture, what a cell tells of each joint, and a
 // last figure whose mean over all cells is the log odds that a person is there.
 constexpr int kCells = 32, kCellSide_px = kDepthPictureSide_px / kCells;
 constexpr std::size_t kCellCount = std::size_t{kCells} * kCells;
@@ -153,16 +154,17 @@ std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& v
   return seen;
 }
 
-const TfliteFile& DepthPose::file() {
-  static const TfliteFile file = read_tflite(limbcast_depth_pose);
-  return file;
-}
-
 DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
   if (!params.enabled) return;
-  networks_ = std::make_unique<InstancePool<TfliteNetwork>>([library = params.library] {
-    return std::make_unique<TfliteNetwork>(file(), std::vector<std::string>{"joints"}, library);
-  });
+  static const TfliteFile of_cameras = read_tflite(limbcast_depth_pose);
+  static const TfliteFile of_scans = read_tflite(limbcast_scan_depth_pose);
+  const auto pool = [library = params.library](const TfliteFile& file) {
+    return std::make_unique<InstancePool<TfliteNetwork>>([library, &file] {
+      return std::make_unique<TfliteNetwork>(file, std::vector<std::string>{"joints"}, library);
+    });
+  };
+  of_cameras_ = pool(of_cameras);
+  of_scans_ = pool(of_scans);
 }
 
 std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
@@ -171,8 +173,9 @@ std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
 
 std::optional<PoseInDepths> DepthPose::see_person(const DepthPicture& picture,
                                                   float min_person_odds) const {
-  if (!networks_) return std::nullopt;
-  const auto seen = networks_->with([&](TfliteNetwork& network) -> std::optional<SeenPerson> {
+  const auto& networks = picture.of_scan ? of_scans_ : of_cameras_;
+  if (!networks) return std::nullopt;
+  const auto seen = networks->with([&](TfliteNetwork& network) -> std::optional<SeenPerson> {
     Figures figures = figures_of(network, picture.channels);
     if (person_odds(figures) < min_person_odds - params_.mirror_adds_odds) return std::nullopt;
     figures = figures_of_both(network, picture.channels, std::move(figures));

@@ -26,14 +26,12 @@ struct PoseInDepths {
 /// before it.
 std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& view);
 
-/// limbcast's own network of poses (models/README.md): sees a person's joints in depths alone, left
-/// and right from how a body is built, and how far away each is. Trained on simulated people by
-/// tests/segmenter/train_depth_pose.sh. Several threads may use one object.
+/// limbcast's own networks of poses, one for cameras and one for scans (models/README.md): they see
+/// a person's joints in depths alone, left and right from how a body is built, and how far away
+/// each is. Trained on simulated people by tests/segmenter/train_depth_pose.sh. Several threads may
+/// use one object.
 class DepthPose {
  public:
-  /// A file that is part of the program; the same at each call.
-  static const TfliteFile& file();
-
   explicit DepthPose(const DepthPoseParams& params);
 
   /// Nothing where the network is switched off.
@@ -44,7 +42,7 @@ class DepthPose {
 
  private:
   DepthPoseParams params_;
-  std::unique_ptr<InstancePool<TfliteNetwork>> networks_;
+  std::unique_ptr<InstancePool<TfliteNetwork>> of_cameras_, of_scans_;
 };
 
 }  // namespace limbcast::segmenter

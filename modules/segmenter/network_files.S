@@ -12,6 +12,10 @@ limbcast_blaze_pose:
     .balign 16
 limbcast_depth_pose:
     .incbin LIMBCAST_DEPTH_POSE
+    .global limbcast_scan_depth_pose
+    .balign 16
+limbcast_scan_depth_pose:
+    .incbin LIMBCAST_SCAN_DEPTH_POSE
     .global limbcast_move_net
     .balign 16
 limbcast_move_net:

@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   11000 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
+#   SIMULATED_DIR   11330 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -56,7 +56,7 @@ simulate p_colorless_nohuman nohuman depth 120 833 --color=false
 simulate p_colorless_multi multi depth 60 834 --color=false --child-share 0.15
 simulate p_colorless_pointing pointing depth 50 835 --color=false
 # Scanners of few rings: 32 over 45, 90 and 23 degrees, in rooms and in streets, where people wear coats.
-street=("${few[@]}" --street-share 1 --max-camera-height-m 2.1)
+street=("${few[@]}" "${streets[@]}")
 narrow=("${street[@]}" --max-elevation-deg 11.25)
 simulate p_few_nohuman nohuman laser 150 841 "${few[@]}"
 simulate p_few_multi multi laser 120 842 --max-distance-m 7 "${few[@]}" "${coats[@]}"
@@ -70,27 +70,27 @@ simulate p_street_multi multi laser 80 862 --max-distance-m 9 "${street[@]}" "${
 simulate p_narrow_nohuman nohuman laser 200 863 "${narrow[@]}"
 simulate p_narrow_multi multi laser 50 864 --min-distance-m 3 --max-distance-m 9 "${narrow[@]}" "${coats[@]}"
 # Streets before scanners of more rings: over 45 degrees, 90 degrees, and a car's scanner that looks down.
-streets=(--street-share 1 --max-camera-height-m 2.1)
-car_roof=(--rings 64 --max-elevation-deg 13.4 --pitch-down-deg 11.4 --min-camera-height-m 1.5 "${streets[@]}")
 simulate p_street64_nohuman nohuman laser 150 911 "${streets[@]}"
 simulate p_street64_multi multi laser 60 912 --max-distance-m 8 "${streets[@]}" "${coats[@]}"
-simulate p_street128_nohuman nohuman laser 150 913 --rings 128 --max-elevation-deg 45 "${streets[@]}"
-simulate p_street128_multi multi laser 60 914 --rings 128 --max-elevation-deg 45 --max-distance-m 8 "${streets[@]}" "${coats[@]}"
+simulate p_street128_nohuman nohuman laser 150 913 "${many[@]}" "${streets[@]}"
+simulate p_street128_multi multi laser 60 914 --max-distance-m 8 "${many[@]}" "${streets[@]}" "${coats[@]}"
 simulate p_roof_nohuman nohuman laser 200 915 "${car_roof[@]}"
 simulate p_roof_multi multi laser 80 916 --max-distance-m 9 "${car_roof[@]}" "${coats[@]}"
 simulate p_roof_general general laser 60 917 --max-distance-m 9 "${car_roof[@]}" "${coats[@]}"
-simulate p_street_nohuman2 nohuman laser 300 921 "${street[@]}"
-simulate p_narrow_nohuman2 nohuman laser 300 922 "${narrow[@]}"
-simulate p_street64_nohuman2 nohuman laser 250 923 "${streets[@]}"
-simulate p_roof_nohuman2 nohuman laser 250 924 "${car_roof[@]}"
-simulate p_street64_general general laser 100 925 --max-distance-m 8 "${streets[@]}" "${coats[@]}"
-simulate p_roof_general2 general laser 100 926 --max-distance-m 9 "${car_roof[@]}" "${coats[@]}"
-simulate p_street_general general laser 100 927 --max-distance-m 8 "${street[@]}" "${coats[@]}"
+simulate p_street_nohuman2 nohuman laser 300 921 "${street[@]}" "${uneven[@]}"
+simulate p_narrow_nohuman2 nohuman laser 300 922 "${narrow[@]}" "${uneven[@]}"
+simulate p_street64_nohuman2 nohuman laser 250 923 "${streets[@]}" "${uneven[@]}"
+simulate p_roof_nohuman2 nohuman laser 250 924 "${car_roof[@]}" "${uneven[@]}"
+simulate p_street64_general general laser 100 925 --max-distance-m 8 "${streets[@]}" "${coats[@]}" "${uneven[@]}"
+simulate p_roof_general2 general laser 100 926 --max-distance-m 9 "${car_roof[@]}" "${coats[@]}" "${uneven[@]}"
+simulate p_street_general general laser 100 927 --max-distance-m 8 "${street[@]}" "${coats[@]}" "${uneven[@]}"
+simulate p_street64_walk general laser 120 931 --posture walk --max-distance-m 8 "${streets[@]}" "${coats[@]}" "${uneven[@]}"
+simulate p_roof_walk general laser 120 932 --posture walk --max-distance-m 9 "${car_roof[@]}" "${coats[@]}" "${uneven[@]}"
+simulate p_street_walk general laser 100 933 --posture walk --max-distance-m 8 "${street[@]}" "${coats[@]}" "${uneven[@]}"
 # Scanners of 16 rings, in rooms.
-sixteen=(--rings 16 --max-elevation-deg 15)
-simulate p_sixteen_nohuman nohuman laser 150 928 "${sixteen[@]}"
-simulate p_sixteen_multi multi laser 80 929 --max-distance-m 5 "${sixteen[@]}"
-simulate p_sixteen_general general laser 100 930 --max-distance-m 5 "${sixteen[@]}" "${coats[@]}"
+simulate p_sixteen_nohuman nohuman laser 150 928 "${sixteen[@]}" "${uneven[@]}"
+simulate p_sixteen_multi multi laser 80 929 --max-distance-m 5 "${sixteen[@]}" "${uneven[@]}"
+simulate p_sixteen_general general laser 100 930 --max-distance-m 5 "${sixteen[@]}" "${coats[@]}" "${uneven[@]}"
 # More of what may be taken for people.
 simulate p_laser_nohuman4 nohuman laser 200 871
 simulate p_dense_nohuman2 nohuman laser 200 872 "${dense[@]}"

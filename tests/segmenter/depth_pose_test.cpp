@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "modules/segmenter/depth_picture.hpp"
@@ -60,6 +61,15 @@ void expect_near(const cv::Vec4f& seen, const cv::Vec4f& expected) {
 
 DepthPicture picture_of(const Cloud& cloud, const LabelledPerson& person) {
   return draw_depths(look_at(cloud, {}), person, {}).value();
+}
+
+/// The same points as a range finder tells them: a list.
+Cloud as_scan(Cloud cloud) {
+  cloud.camera.reset();
+  cloud.colors.clear();
+  cloud.width = static_cast<int>(cloud.points_m.size());
+  cloud.height = 1;
+  return cloud;
 }
 
 Eigen::Vector3f in_mirror(const Eigen::Vector3f& v) { return {-v.x(), v.y(), v.z()}; }
@@ -123,9 +133,7 @@ TEST(DepthPicture, ShowsWhatMayBeThePersonsAsSomethingElse) {
 
 TEST(DepthPicture, ShowsTheSameOfAScan) {
   Wall scan(2.25F);
-  scan.cloud.camera.reset();
-  scan.cloud.width = static_cast<int>(scan.cloud.points_m.size());
-  scan.cloud.height = 1;
+  scan.cloud = as_scan(std::move(scan.cloud));
   const cv::Vec4f camera = middle_of(Wall(2.25F)), seen = middle_of(scan);
   // A pixel between points takes the nearest one's level distance.
   constexpr double kNearestPoint = 0.01;
@@ -285,6 +293,21 @@ TEST_F(DepthsOfTheDemo, ShowTheSameToPortableNetworks) {
     EXPECT_LT((quick.joints[i].px - other.joints[i].px).norm(), 2.0F) << kJointNames[i];
     EXPECT_NEAR(quick.joints[i].behind_hips_m, other.joints[i].behind_hips_m, 0.03F)
         << kJointNames[i];
+  }
+}
+
+TEST_F(DepthsOfTheDemo, AreShownToANetworkOfScansWhereTheyAreOfOne) {
+  const DepthPose networks{DepthPoseParams{}};
+  DepthPicture picture =
+      picture_of(as_scan(cloud_), {labels_, kOwn, person_[Joint::kHead].position_m});
+  const auto in_scan = networks.look(picture);
+  ASSERT_TRUE(picture.of_scan && in_scan);
+  picture.of_scan = false;
+  EXPECT_NE(in_scan->places_m, networks.look(picture)->places_m);
+  constexpr float kNear_m = 0.10F;
+  for (std::size_t i = 0; i < in_scan->places_m.size(); ++i) {
+    const Eigen::Vector3f& truth_m = person_[static_cast<Joint>(i)].position_m;
+    EXPECT_LT((in_scan->places_m.at(i) - truth_m).norm(), kNear_m) << kJointNames[i];
   }
 }
 

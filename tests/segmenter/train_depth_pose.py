@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Trains limbcast's own network of poses and writes it as a file of TensorFlow Lite.
+"""Trains limbcast's own networks of poses and writes them as files of TensorFlow Lite.
 
-    train_depth_pose.py OUT.tflite TRAINING.bin... [--check CHECK.bin...]
+    train_depth_pose.py OUT.tflite SCANS_OUT.tflite TRAINING.bin... --rings SCANS.bin... --rasters SCANS.bin...
+                        [--check CHECK.bin...]
 
-Files are those of limbcast-write-depth-pictures. After each few epochs it prints what the network sees of the files to
-check by. train_depth_pose.sh makes the pictures and runs it. Needs Debian's python3-torch and python3-flatbuffers. On
-processors that compute with brain floats of 16 bits layers are computed in these.
+OUT, for cameras, is trained on TRAINING; from there SCANS_OUT on scans of rotating and of tilting scanners. Files are
+those of limbcast-write-depth-pictures. After each few epochs it prints what the network sees of the files to check by.
+train_depth_pose.sh makes the pictures and runs it. Needs Debian's python3-torch and python3-flatbuffers. On processors
+that compute with brain floats of 16 bits layers are computed in these.
 """
 import argparse
 import os
@@ -37,6 +39,8 @@ LIMB_ENDS = [6, 7, 8, 9, 12, 13, 14, 15]  # elbows, wrists, knees, ankles
 MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
 
 CYCLES = ((24, 2e-3), (8, 1e-3))  # epochs, and the highest rate, which falls to nothing in each
+SCAN_CYCLES = ((12, 8e-4), (5, 5e-4))
+MOST_THINGS = 1200  # of a file of scans
 BATCH = 32
 
 
@@ -100,8 +104,15 @@ class DepthPose(nn.Module):
 # Training
 
 
-def read_records(paths):
-    return np.concatenate([np.fromfile(path, RECORD) for path in paths])
+def read_records(paths, most_things=None):
+    """All people of the files, and so many things of each."""
+    parts = []
+    for path in paths:
+        records = np.memmap(path, RECORD, "r")
+        things = np.random.default_rng(1).permutation(np.flatnonzero(records["is_person"] == 0))
+        kept = np.concatenate([np.flatnonzero(records["is_person"]), things[:most_things]])
+        parts.append(records[np.sort(kept)])
+    return np.concatenate(parts)
 
 
 def tensors_of(records):
@@ -124,11 +135,14 @@ def change_depths(x, change):
     x[:, OTHER] = torch.where(x[:, OTHER_DEPTH] < 0, -other, other)
 
 
-def move(x, joints, random):
-    """Turned by 3.4 degrees, 8 % larger, moved by 4 px and 5 cm in depth (standard deviations)."""
+def move(x, joints, random, scans):
+    """Turned by 3.4 degrees, 8 % larger, moved by 4 px and 5 cm in depth (standard deviations). A quarter of the scans
+    by 10 px: where nobody's head was found it is a guess."""
     count = len(x)
     draw = lambda spread, *shape: torch.from_numpy(random.normal(0, spread, (count, *shape)).astype(np.float32))
     angle, size, shift, behind_m = draw(0.06), torch.exp(draw(0.08)), draw(4.0, 2), draw(0.05)
+    if scans:
+        shift *= torch.from_numpy(np.where(random.random((count, 1)) < 0.25, 2.5, 1.0).astype(np.float32))
     cos, sin = torch.cos(angle), torch.sin(angle)
     middle = (SIDE - 1) / 2
     rows, columns = torch.meshgrid(torch.arange(SIDE).float(), torch.arange(SIDE).float(), indexing="ij")
@@ -231,10 +245,34 @@ def smear_some(x, random):
     x[some] = torch.cat([own, depth, other * (1 - own)], 1)
 
 
-def varied(x, joints, random):
+def rings_of(random):
+    """First and last row + 1 of what each ring of a scanner sees: 3 to 12 px."""
+    height_px = random.uniform(3, 12)
+    edges = np.arange(-random.uniform(0, height_px), SIDE + height_px, height_px).round().clip(0, SIDE).astype(int)
+    return [(first, end) for first, end in zip(edges, edges[1:]) if first < end]
+
+
+def shift_some_rings(x, has_rings, random):
+    """As of scanners whose lasers are not all calibrated alike: in a half of the pictures each ring's columns and depths
+    are off by up to 2 px and 2 cm (standard deviations), and up to 4 % of the rings see nothing."""
+    for k in np.flatnonzero(has_rings & (random.random(len(x)) < 0.5)):
+        columns_px, depths_m, lost_share = random.uniform(0, 2), random.uniform(0, 0.02), random.uniform(0, 0.04)
+        for first, end in rings_of(random):
+            ring = x[k:k + 1, :, first:end]
+            ring[:] = ring.roll(round(random.normal(0, columns_px)), 3)
+            behind_m = random.normal(0, depths_m)
+            change_depths(ring, lambda depths: depths + behind_m / PICTURE_UNIT_M)
+            if random.random() < lost_share:
+                ring[:] = 0
+
+
+def varied(x, joints, random, has_rings=None):
+    """`has_rings`: of each picture; of scans alone."""
     x, joints = mirror_some(x, joints, random)
-    x, joints = move(x, joints, random)
+    x, joints = move(x, joints, random, scans=has_rings is not None)
     add_noise(x, random)
+    if has_rings is not None:
+        shift_some_rings(x, has_rings, random)
     own = x[:, 0].clone()
     hide_parts(x, random)
     joints = joints_in_sight(joints, own - x[:, 0])
@@ -346,7 +384,7 @@ def pictures_of_epoch(is_person, random):
     return random.permutation(np.concatenate([np.flatnonzero(is_person), things[: len(things) // 2]]))
 
 
-def train_cycle(network, records, checks, epochs, rate, random):
+def train_cycle(network, records, checks, epochs, rate, random, has_rings=None):
     optimizer = torch.optim.AdamW(network.parameters(), rate, weight_decay=1e-4)
     steps = epochs * (len(pictures_of_epoch(records["is_person"], random)) // BATCH)
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps + 1, pct_start=0.15)
@@ -354,8 +392,9 @@ def train_cycle(network, records, checks, epochs, rate, random):
     for epoch in range(epochs):
         order, losses = pictures_of_epoch(records["is_person"], random), []
         for start in range(0, len(order) - BATCH + 1, BATCH):
-            x, joints, is_person = tensors_of(records[np.sort(order[start:start + BATCH])])
-            x, joints = varied(x, joints, random)
+            batch = np.sort(order[start:start + BATCH])
+            x, joints, is_person = tensors_of(records[batch])
+            x, joints = varied(x, joints, random, None if has_rings is None else has_rings[batch])
             optimizer.zero_grad()
             loss = loss_of(computed(network, x), joints, is_person)
             loss.backward()
@@ -368,14 +407,19 @@ def train_cycle(network, records, checks, epochs, rate, random):
                 check(network, path)
 
 
-def train(records, checks):
-    torch.manual_seed(1)
-    torch.set_num_threads(os.cpu_count())
+def train(network, records, checks, cycles, has_rings=None):
+    print(f"{len(records)} pictures", flush=True)
     random = np.random.default_rng(1)
-    network = DepthPose().to(memory_format=torch.channels_last)
-    for epochs, rate in CYCLES:
-        train_cycle(network, records, checks, epochs, rate, random)
+    network.train()
+    for epochs, rate in cycles:
+        train_cycle(network, records, checks, epochs, rate, random, has_rings)
     return network.eval()
+
+
+def train_on_scans(network, rings, rasters, checks):
+    of_rings, of_rasters = (read_records(paths, MOST_THINGS) for paths in (rings, rasters))
+    has_rings = np.repeat([True, False], [len(of_rings), len(of_rasters)])
+    return train(network, np.concatenate([of_rings, of_rasters]), checks, SCAN_CYCLES, has_rings)
 
 
 # Writing
@@ -437,12 +481,17 @@ def write(network, path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out")
+    parser.add_argument("scans_out")
     parser.add_argument("training", nargs="+")
+    parser.add_argument("--rings", nargs="+", required=True)
+    parser.add_argument("--rasters", nargs="+", required=True)
     parser.add_argument("--check", nargs="*", default=[])
     arguments = parser.parse_args()
-    records = read_records(arguments.training)
-    print(f"{len(records)} pictures", flush=True)
-    write(train(records, arguments.check), arguments.out)
+    torch.manual_seed(1)
+    torch.set_num_threads(os.cpu_count())
+    network = DepthPose().to(memory_format=torch.channels_last)
+    write(train(network, read_records(arguments.training), arguments.check, CYCLES), arguments.out)
+    write(train_on_scans(network, arguments.rings, arguments.rasters, arguments.check), arguments.scans_out)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,14 @@
 #!/bin/bash
-# Trains limbcast's own network of poses from nothing: simulates people before each sensor, and rooms and streets without
-# any, draws their depths and writes modules/segmenter/models/depth_pose.tflite. Build again afterwards, and fit the
-# confidences of the refined fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch and
-# python3-flatbuffers.
+# Trains limbcast's own networks of poses from nothing: simulates people before each sensor, and rooms and streets without
+# any, draws their depths and writes depth_pose.tflite and scan_depth_pose.tflite of modules/segmenter/models. Build again
+# afterwards, and fit the confidences of the refined fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch
+# and python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   14290 simulated frames, 10 GB, about an hour on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   23590 simulated frames, 16 GB, an hour and a half on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
-# Run it after segments or range images changed. Training takes an hour and a half on two cores without
-# brain floats of 16 bits; with them a step takes a third of the time.
+# Run it after segments or range images changed. Training takes two hours on two cores without brain
+# floats of 16 bits; with them a step takes a third of the time.
 set -euo pipefail
 source "$(dirname "$0")/../../modules/usage.sh"
 check_arguments 2 3 "$@"
@@ -68,21 +68,63 @@ simulate n_few_nohuman nohuman laser 400 20047 "${few[@]}"
 simulate n_wide_nohuman nohuman laser 300 20048 "${wide[@]}"
 simulate n_street_nohuman nohuman laser 400 20049 "${few[@]}" --street-share 1 --max-camera-height-m 2.1
 
+cameras_and_scans=("${folders[@]}")
+# Scans of rotating scanners: streets, where people walk and wear coats, farther away than rooms are wide.
+folders=()
+street=("${few[@]}" "${streets[@]}") narrow=("${few[@]}" "${streets[@]}" --max-elevation-deg 11.25)
+simulate f_street64_general general laser 400 20071 --max-distance-m 9 "${streets[@]}" "${coats[@]}"
+simulate f_street64_multi multi laser 250 20072 --max-distance-m 9 "${streets[@]}" "${coats[@]}"
+simulate f_street_general general laser 350 20073 --max-distance-m 8 "${street[@]}" "${coats[@]}"
+simulate f_street_multi multi laser 200 20074 --max-distance-m 8 "${street[@]}" "${coats[@]}"
+simulate f_narrow_general general laser 300 20075 --min-distance-m 2.5 --max-distance-m 9 "${narrow[@]}" "${coats[@]}"
+simulate f_roof_general general laser 400 20076 --max-distance-m 10 "${car_roof[@]}" "${coats[@]}"
+simulate f_roof_multi multi laser 250 20077 --max-distance-m 10 "${car_roof[@]}" "${coats[@]}"
+simulate f_street128_general general laser 200 20078 --max-distance-m 9 "${many[@]}" "${streets[@]}" "${coats[@]}"
+simulate f_street64_nohuman nohuman laser 400 20079 "${streets[@]}"
+simulate f_street_nohuman nohuman laser 400 20080 "${street[@]}"
+simulate f_narrow_nohuman nohuman laser 300 20081 "${narrow[@]}"
+simulate f_roof_nohuman nohuman laser 400 20082 "${car_roof[@]}"
+simulate f_roof_pointing pointing laser 200 20084 --max-distance-m 9 "${car_roof[@]}"
+thick=(--coat-share 0.5 --child-share 0.1)
+simulate f_walk64 general laser 300 20101 --max-distance-m 9 "${streets[@]}" "${thick[@]}" --posture walk
+simulate f_walkroof general laser 300 20102 --max-distance-m 10 "${car_roof[@]}" "${thick[@]}" --posture walk
+simulate f_walk32 general laser 250 20103 --max-distance-m 8 "${street[@]}" "${thick[@]}" --posture walk
+simulate f_carryroof general laser 200 20104 --max-distance-m 10 "${car_roof[@]}" "${thick[@]}" --posture carry
+# Rooms, to the distance that each density allows.
+simulate f_laser_general general laser 300 20085 --child-share 0.2 --max-distance-m 8
+simulate f_laser_pointing pointing laser 300 20086 --child-share 0.1 --max-distance-m 6
+simulate f_laser_multi multi laser 200 20087 --child-share 0.15 --max-distance-m 7
+simulate f_laser_coats general laser 300 20088 --max-distance-m 6 "${coats[@]}"
+simulate f_few_general general laser 250 20090 --max-distance-m 7 "${few[@]}" "${coats[@]}"
+simulate f_few_pointing pointing laser 200 20091 --max-distance-m 6 "${few[@]}"
+simulate f_wide_general general laser 150 20093 --max-distance-m 5 "${wide[@]}" "${coats[@]}"
+simulate f_sixteen_general general laser 200 20094 --max-distance-m 5 "${sixteen[@]}" "${coats[@]}"
+simulate f_sixteen_multi multi laser 100 20095 --max-distance-m 5 "${sixteen[@]}" "${coats[@]}"
+simulate f_many_general general laser 150 20097 --max-distance-m 8 "${many[@]}" "${coats[@]}"
+simulate f_laser_nohuman nohuman laser 400 20046
+simulate f_few_nohuman nohuman laser 300 20047 "${few[@]}"
+simulate f_wide_nohuman nohuman laser 200 20048 "${wide[@]}"
+rings=("${folders[@]}")
+# And of tilting ones.
+folders=()
+simulate f_dense_general general laser 300 20002 --child-share 0.2 --max-distance-m 5 "${dense[@]}"
+simulate f_dense_pointing pointing laser 300 20012 --child-share 0.1 --max-distance-m 5 "${dense[@]}"
+simulate f_dense_multi multi laser 250 20053 --child-share 0.15 "${dense[@]}"
+simulate f_dense_nohuman nohuman laser 300 20045 "${dense[@]}"
+rasters=("${folders[@]}")
+
 pictures() {
   local out=$simulated/$(basename "$1").bin
   [ -e "$out" ] && return
   "$bin/limbcast-write-depth-pictures" "$out.part" "$1"
   mv "$out.part" "$out"
 }
-training=()
-for folder in "${folders[@]}"; do
-  pictures "$folder"
-  training+=("$folder.bin")
-done
+for folder in "${cameras_and_scans[@]}" "${rings[@]}" "${rasters[@]}"; do pictures "$folder"; done
 checks=()
 for set in laser_dev stereo_dev/pointing stereo_dev/general stereo_dev/multi stereo_dev/nohuman rgbd_pointing; do
   pictures "$data/$set"
   checks+=("$simulated/$(basename "$set").bin")
 done
-/usr/bin/python3 tests/segmenter/train_depth_pose.py modules/segmenter/models/depth_pose.tflite "${training[@]}" \
-  --check "${checks[@]}"
+models=modules/segmenter/models
+/usr/bin/python3 tests/segmenter/train_depth_pose.py "$models/depth_pose.tflite" "$models/scan_depth_pose.tflite" \
+  "${cameras_and_scans[@]/%/.bin}" --rings "${rings[@]/%/.bin}" --rasters "${rasters[@]/%/.bin}" --check "${checks[@]}"

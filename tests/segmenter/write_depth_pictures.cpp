@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -86,15 +87,55 @@ std::optional<Record> record_of(const Segment& segment, const std::optional<Dept
   return record;
 }
 
-std::vector<Record> records_of(const LoadedFrame& frame, const Segmenter& segmenter) {
+/// The segmenters whose segments are drawn.
+struct Segmenters {
+  Segmenter usual, with_overlooked, of_rooms;
+};
+
+/// Of the segments; people whose heads are in `known_heads_m` are left out, and the others' added
+/// there.
+void add_records(const Segmenter& segmenter, const LoadedFrame& frame,
+                 std::vector<Eigen::Vector3f>& known_heads_m, std::vector<Record>& records) {
   DepthPictures pictures;
   const Segments segments = segmenter.segment(frame.cloud, &pictures);
-  std::vector<Record> records;
+  std::vector<Eigen::Vector3f> heads_m;
   for (std::size_t k = 0; k < segments.segments.size(); ++k) {
-    const auto record = record_of(segments.segments[k], pictures[k], frame);
-    if (record) records.push_back(*record);
+    const Segment& segment = segments.segments[k];
+    const auto record = record_of(segment, pictures[k], frame);
+    if (!record) continue;
+    const Eigen::Vector3f head_m = behind_surface(segment.seed_m);
+    if (std::any_of(known_heads_m.begin(), known_heads_m.end(),
+                    [&](const auto& known_m) { return (known_m - head_m).norm() < kSamePerson_m; }))
+      continue;
+    heads_m.push_back(head_m);
+    records.push_back(*record);
+  }
+  known_heads_m.insert(known_heads_m.end(), heads_m.begin(), heads_m.end());
+}
+
+/// People as they are found, and those who are overlooked without the network of depths.
+std::vector<Record> records_of(const LoadedFrame& frame, const Segmenters& segmenters) {
+  std::vector<Record> records;
+  std::vector<Eigen::Vector3f> known_heads_m;
+  if (shows_nobody(frame)) {
+    add_records(segmenters.of_rooms, frame, known_heads_m, records);
+  } else {
+    add_records(segmenters.usual, frame, known_heads_m, records);
+    add_records(segmenters.with_overlooked, frame, known_heads_m, records);
   }
   return records;
+}
+
+Params without_depth_pose(Params params) {
+  params.depth_pose.enabled = false;
+  return params;
+}
+
+/// Whatever the network of depths is shown counts as a person, wherever it marks the head.
+Params shown(Params params) {
+  constexpr float kLowest = -100.0F;
+  params.overlooked.min_person_odds = kLowest;
+  return params;
 }
 
 /// Of rooms: takes whatever looks a little like a head, so that the network sees many things.
@@ -114,16 +155,16 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: limbcast-write-depth-pictures OUT.bin FOLDER...\n");
     return 2;
   }
-  Params params;
-  params.depth_pose.enabled = false;
-  const Segmenter segmenter(params), of_rooms(eager(params));
+  const Params params;
+  const Segmenters segmenters{Segmenter(without_depth_pose(params)), Segmenter(shown(params)),
+                              Segmenter(shown(eager(params)))};
   std::ofstream file(argv[1], std::ios::binary);
   for (int k = 2; k < argc; ++k) {
     const FrameReader reader(argv[k], DepthFrom::kReconstructor);
     std::vector<std::vector<Record>> frames(reader.paths().size());
     tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
       const LoadedFrame frame = reader.read(reader.paths()[i]);
-      frames[i] = records_of(frame, shows_nobody(frame) ? of_rooms : segmenter);
+      frames[i] = records_of(frame, segmenters);
     });
     std::size_t pictures = 0;
     for (const std::vector<Record>& records : frames) {
