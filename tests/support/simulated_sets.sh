@@ -15,13 +15,11 @@ dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-
 few=(--rings 32 --azimuth-step-deg 0.35 --range-sigma-m 0.015)
 wide=("${few[@]}" --max-elevation-deg 45)
 coats=(--coat-share 0.4 --child-share 0.15)
-# 128 rings over 90 degrees and 16 over 30; streets, a car's scanner that looks down on them, and rings as real ones that
-# are not all calibrated alike.
+# 128 rings over 90 degrees and 16 over 30; streets, and a car's scanner that looks down on them.
 many=(--rings 128 --max-elevation-deg 45)
 sixteen=(--rings 16 --max-elevation-deg 15)
 streets=(--street-share 1 --max-camera-height-m 2.1)
 car_roof=(--rings 64 --max-elevation-deg 13.4 --pitch-down-deg 11.4 --min-camera-height-m 1.5 "${streets[@]}")
-uneven=(--ring-range-sigma-m 0.015 --ring-azimuth-sigma-deg 0.1)
 
 simulate() {
   local folder=$simulated/$1

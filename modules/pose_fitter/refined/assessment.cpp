@@ -25,9 +25,9 @@ constexpr Real kLeastPersonConfidence = 0.75;
 /// between this and 0.5, five and one between 0.2 and this.
 constexpr Real kLeastAccompaniedConfidence = 0.35;
 /// Before a scanner, where the surface alone speaks, a body must be surer, also beside others: of
-/// 489 people of 150 simulated streets 404 are told, of 360 streets without any one thing. Of a
-/// real street (154 scans of 64 rings) 85 of 143 people within 9 m are, and one thing
-/// (tests/accuracy/README.md, "Real scans that nobody had looked at").
+/// 489 people of 150 simulated streets 427 are told, of 360 streets without any no thing; with 0.5
+/// 432 and three. Of a real street (154 scans of 64 rings) 105 of 143 people within 9 m are, and no
+/// thing (tests/accuracy/README.md, "A network of depths for scans").
 constexpr Real kLeastScannedPersonConfidence = 0.85;
 /// Before a camera, nearer than this [m], legs are out of sight: of 340 simulated frames of people
 /// there ten more are told than at 0.75, of 380 rooms no thing more.
