@@ -40,8 +40,10 @@ const std::string kTry = "; try it with gst-launch-1.0 and a sink (package gstre
 /// Of GObject, in this thread: that a property cannot take a value, and goes without it.
 thread_local std::string warning;
 
-void keep_warning(const gchar* /*domain*/, GLogLevelFlags /*level*/, const gchar* text,
-                  gpointer /*unused*/) {
+/// Others, as of a plugin that is installed twice, are no fault of the pipeline's.
+void keep_warning(const gchar* domain, GLogLevelFlags level, const gchar* text, gpointer data) {
+  if (std::string(text).find("for property") == std::string::npos)
+    return g_log_default_handler(domain, level, text, data);
   warning = text;
 }
 
