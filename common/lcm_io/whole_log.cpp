@@ -1,5 +1,7 @@
 #include "common/lcm_io/whole_log.hpp"
 
+#include <stdexcept>
+
 #include "common/whole_file.hpp"
 
 namespace limbcast::lcm_io {
@@ -16,6 +18,8 @@ void WholeLog::close() {
 }
 
 void WholeLog::finish() {
+  // What stands beside it then is an earlier run's.
+  if (!begun()) throw std::runtime_error(path_ + ": was not written, as nothing came");
   close();
   finish_file(path_);
 }

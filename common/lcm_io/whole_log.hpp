@@ -20,7 +20,8 @@ class WholeLog {
   bool begun() const { return writer_.has_value(); }
   /// Writes out what is buffered. Throws like LogWriter.
   void close();
-  /// Closes and puts it in its place. Throws std::runtime_error where it cannot be written.
+  /// Closes and puts it in its place. Throws std::runtime_error where it cannot be written, or
+  /// nothing was.
   void finish();
   /// Where what was `done` ("sent") stands of a log that does not become whole.
   std::string what_is_left(const std::string& done) const;

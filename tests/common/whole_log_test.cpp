@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 #include "common/config/options.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -50,6 +51,13 @@ TEST_F(WholeLogFile, IsReadableBesideAnEarlierOneWhereItDoesNotBecomeWhole) {
   }
   EXPECT_EQ(first_channel_of(path_), "EARLIER");
   EXPECT_EQ(first_channel_of(unfinished_), "NEW");
+}
+
+TEST_F(WholeLogFile, IsNotWhatAnEarlierRunLeftWhereNothingIsWritten) {
+  { WholeLog(path_).writer().write({0, "LEFT", {1}}); }
+  EXPECT_THROW(WholeLog(path_).finish(), std::runtime_error);
+  EXPECT_EQ(first_channel_of(path_), "EARLIER");
+  EXPECT_EQ(first_channel_of(unfinished_), "LEFT");
 }
 
 TEST_F(WholeLogFile, IsNotMadeWhereNothingIsWritten) {
