@@ -8,11 +8,11 @@ namespace {
 
 /// Height that counts zero, and the scale [m]: heads of standing and seated people lie within one
 /// scale.
-constexpr float kMeanHeight_m = 1.35F, kHeightScale_m = 0.5F;
+constexpr float kMeanHeadHeight_m = 1.35F, kHeightScale_m = 0.5F;
 /// Depth that counts zero [m]: people stand 1.5 to 5 m off.
-constexpr float kMeanDepth_m = 2.7F;
+constexpr float kMeanHeadDepth_m = 2.7F;
 /// Noise of a depth that counts one [m].
-constexpr float kNoiseScale_m = 0.1F;
+constexpr float kHeadNoiseScale_m = 0.1F;
 
 }  // namespace
 
@@ -60,10 +60,10 @@ std::vector<float> sample_patch(const Lattice& lattice, const PatchPlace& place)
   float* values = patch.data();
   for (const PatchGrid& grid : kPatchGrids) values = write_grid(lattice, place, grid, values);
   const bool known = lattice.frame.ground_known;
-  *values++ = known ? (place.height_m - kMeanHeight_m) / kHeightScale_m : 0.0F;
+  *values++ = known ? (place.height_m - kMeanHeadHeight_m) / kHeightScale_m : 0.0F;
   *values++ = known ? 1.0F : 0.0F;
-  *values++ = std::log(place.depth_m / kMeanDepth_m);
-  *values++ = lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m;
+  *values++ = std::log(place.depth_m / kMeanHeadDepth_m);
+  *values++ = lattice.depth_noise.sigma_m(place.depth_m) / kHeadNoiseScale_m;
   return patch;
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 /// The network's maps have a cell for so many pixels of the picture.
 constexpr int kCell_px = 4;
-constexpr int kCells = kPictureSide_px / kCell_px;
-constexpr float kMiddle_cells = 0.5F * kCells;
+constexpr int kMapCells = kPictureSide_px / kCell_px;
+constexpr float kMiddle_cells = 0.5F * kMapCells;
 /// Keypoints of COCO, and the network's outputs.
 constexpr int kKeypoints = 17;
 enum Output { kCenter, kHeatmap, kRegression, kOffset };
@@ -30,7 +30,7 @@ float visibility(float score) {
   return std::clamp((score - kUnseenScore) / (kSeenScore - kUnseenScore), 0.0F, 1.0F);
 }
 
-constexpr int kLeftEar = 3, kRightEar = 4;
+constexpr int kLeftEarKeypoint = 3, kRightEarKeypoint = 4;
 constexpr std::array<JointOutput, 12> kJointKeypoints = {{{Joint::kShoulderLeft, 5},
                                                           {Joint::kShoulderRight, 6},
                                                           {Joint::kElbowLeft, 7},
@@ -46,8 +46,8 @@ constexpr std::array<JointOutput, 12> kJointKeypoints = {{{Joint::kShoulderLeft,
 
 /// Column and row of a cell.
 Eigen::Vector2f place_of(int cell) {
-  const int row = cell / kCells;
-  return {static_cast<float>(cell % kCells), static_cast<float>(row)};
+  const int row = cell / kMapCells;
+  return {static_cast<float>(cell % kMapCells), static_cast<float>(row)};
 }
 
 /// The cell of the highest score, where those far from `expected` count less. `log_odds` are the
@@ -55,7 +55,7 @@ Eigen::Vector2f place_of(int cell) {
 int best_cell(const float* log_odds, int stride, const Eigen::Vector2f& expected) {
   int best = 0;
   float best_weight = -1.0F;
-  for (int cell = 0; cell < kCells * kCells; ++cell) {
+  for (int cell = 0; cell < kMapCells * kMapCells; ++cell) {
     const float weight = probability(log_odds[cell * stride]) /
                          ((place_of(cell) - expected).norm() + kNearDistance_cells);
     if (weight <= best_weight) continue;
@@ -99,8 +99,8 @@ ImagePose MoveNet::see(const cv::Mat3b& picture) {
   write_rgb(picture, 1.0 / kMiddle, -1.0, network_.input());
   network_.run();
   const int person = find_person();
-  const Keypoint left_ear = find_keypoint(person, kLeftEar);
-  const Keypoint right_ear = find_keypoint(person, kRightEar);
+  const Keypoint left_ear = find_keypoint(person, kLeftEarKeypoint);
+  const Keypoint right_ear = find_keypoint(person, kRightEarKeypoint);
   ImagePose pose;
   pose.person_score = probability(network_.output(kCenter)[person]);
   // The head is where the middle of the ears is; the nearer one is seen.

@@ -13,7 +13,8 @@ namespace {
 /// Points that the network is asked of; more tell nothing new of one surface.
 constexpr std::size_t kAsked = 300;
 /// A height that counts zero, the depth and the noise that count one [m].
-constexpr float kMeanHeight_m = 0.9F, kMeanDepth_m = 2.7F, kNoiseScale_m = 0.1F;
+constexpr float kMeanSurfaceHeight_m = 0.9F, kMeanSurfaceDepth_m = 2.7F,
+                kSurfaceNoiseScale_m = 0.1F;
 /// Odds of one point count no more than this: one sure point makes no body.
 constexpr float kMostOdds = 4.0F;
 
@@ -32,9 +33,9 @@ SurfaceInput surface_input(const Lattice& lattice, std::uint32_t i, bool mirrore
   float* values = input.data();
   for (const PatchGrid& grid : kSurfaceGrids) values = write_grid(lattice, place, grid, values);
   const float known = lattice.frame.ground_known ? 1.0F : 0.0F;
-  input.tail<kSurfacePlaceSize>() << known, known * (lattice.level_m[i].z() - kMeanHeight_m),
-      std::log(place.depth_m / kMeanDepth_m),
-      lattice.depth_noise.sigma_m(place.depth_m) / kNoiseScale_m;
+  input.tail<kSurfacePlaceSize>() << known, known * (lattice.level_m[i].z() - kMeanSurfaceHeight_m),
+      std::log(place.depth_m / kMeanSurfaceDepth_m),
+      lattice.depth_noise.sigma_m(place.depth_m) / kSurfaceNoiseScale_m;
   return input;
 }
 
