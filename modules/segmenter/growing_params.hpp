@@ -77,8 +77,8 @@ struct FurnitureParams {
   float min_bend_m = 0.04F, bend_sigmas = 3.0F;
 };
 
-/// What is cut off from a cluster by the odds of its points (body_classifier.hpp). Chosen on the
-/// recording `seated` of rgbd_pointing and bodies D1 to D3 of stereo_dev.
+/// What is cut off from a cluster by the odds of its points (classifiers/body_classifier.hpp).
+/// Chosen on the recording `seated` of rgbd_pointing and bodies D1 to D3 of stereo_dev.
 struct BodyCutParams {
   /// Log odds below which a point is not taken for a body's. Lower: seats stay, higher: hands go.
   float min_body_odds = -1.0F;

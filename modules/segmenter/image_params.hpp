@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "modules/segmenter/network_library.hpp"
+#include "modules/segmenter/networks/network_library.hpp"
 
 namespace limbcast::segmenter {
 
-/// Faces at the heads of people (face_finder.hpp). Chosen on bodies D1 to D3 of stereo_dev and on
-/// simulated people (tests/accuracy/README.md).
+/// Faces at the heads of people (faces_and_joints/face_finder.hpp). Chosen on bodies D1 to D3 of
+/// stereo_dev and on simulated people (tests/accuracy/README.md).
 struct FaceParams {
   bool enabled = true;
   NetworkLibrary library = network_libraries().front();  ///< that computes it
@@ -31,9 +31,9 @@ struct FaceParams {
   float side_log_odds_per_m = 30.0F, most_side_log_odds = 1.8F;
 };
 
-/// The network that sees joints in the colour image (pose_network.hpp). Chosen on bodies D1 to D3
-/// of stereo_dev/pointing and general with true heads, every second frame: 98 % of the visible
-/// joints are within 10 cm across the ray; with the square around the true hips 95 %.
+/// The network that sees joints in the colour image (faces_and_joints/pose_network.hpp). Chosen on
+/// bodies D1 to D3 of stereo_dev/pointing and general with true heads, every second frame: 98 % of
+/// the visible joints are within 10 cm across the ray; with the square around the true hips 95 %.
 struct PoseNetworkParams {
   bool enabled = true;
   NetworkLibrary library = network_libraries().front();  ///< that computes it
@@ -54,16 +54,16 @@ struct PoseNetworkParams {
   /// What the network sees of a cloud without colours.
 };
 
-/// The square of the second network (move_net.hpp). Of the visible joints of stereo_dev/multi it
-/// sees 92.7 % within 10 cm with a side of 2 m, 91.2 % with 2.3 and 89.3 % with 1.8, with true
-/// silhouettes.
+/// The square of the second network (faces_and_joints/move_net.hpp). Of the visible joints of
+/// stereo_dev/multi it sees 92.7 % within 10 cm with a side of 2 m, 91.2 % with 2.3 and 89.3 % with
+/// 1.8, with true silhouettes.
 inline const PoseNetworkParams kSecondPoseNetwork = [] {
   PoseNetworkParams params;
   params.side_m = 2.0F;
   return params;
 }();
 
-/// What the network of depths sees (depth_pose.hpp); it was trained with these.
+/// What the network of depths sees (faces_and_joints/depth_pose.hpp); it was trained with these.
 struct DepthPictureParams {
   /// Middle of the picture, below the head's centre [m], and its side [m]: room for raised arms.
   float middle_below_head_m = 0.7F;

@@ -61,7 +61,7 @@ struct HeadShapeParams {
   int max_candidates = 120;
 };
 
-/// The trained classifiers (head_classifier.hpp).
+/// The trained classifiers (classifiers/head_classifier.hpp).
 struct ClassifierParams {
   /// Lowest log odds, by the depths around it, of a candidate that is grown. Low: the cluster tells
   /// more.
@@ -95,7 +95,7 @@ struct ClassifierParams {
   float separation_m = 0.28F;
 };
 
-/// People whose head is out of sight (hidden_heads.hpp).
+/// People whose head is out of sight (overlooked/hidden_heads.hpp).
 struct HiddenHeadParams {
   /// Half as far as growing steps: a body must part from the one before it and from the wall.
   SurfaceParams surface = kPartedSurface;
@@ -140,7 +140,8 @@ struct HiddenHeadParams {
   float min_seen_odds = -1.0F;
 };
 
-/// People whose heads the depths around them do not tell, told by the whole body (overlooked.hpp).
+/// People whose heads the depths around them do not tell, told by the whole body
+/// (overlooked/overlooked.hpp).
 struct OverlookedParams {
   /// Lowest log odds and score of the template (0 to 2.48) of a candidate that is asked about, how
   /// far from people who were found and from likelier ones it must be [m], and of how many a frame:
@@ -181,7 +182,7 @@ inline constexpr HiddenHeadParams kOverlookedBodies = [] {
   return params;
 }();
 
-/// Arms that the colour image shows and that growing or cutting left out (lost_arms.hpp). On
+/// Arms that the colour image shows and that growing or cutting left out (bodies/lost_arms.hpp). On
 /// simulated people who point half of the forearms without a segment get theirs, and one to three
 /// more of a hundred arms are right; limits twice as wide change nothing.
 struct LostArmParams {
@@ -201,9 +202,9 @@ struct LostArmParams {
   float max_seeds_apart_m = 0.7F, max_head_error_m = 0.2F;
 };
 
-/// Arms that growing did not reach (floating_arms.hpp). Of 141 such surfaces beside simulated
-/// people before scanners 120 were parts of them, of 16 before depth cameras without colours 13, of
-/// 59 before stereo pairs 40.
+/// Arms that growing did not reach (bodies/floating_arms.hpp). Of 141 such surfaces beside
+/// simulated people before scanners 120 were parts of them, of 16 before depth cameras without
+/// colours 13, of 59 before stereo pairs 40.
 struct FloatingArmParams {
   /// Surfaces of nobody part where growing might go on: an arm from the wall.
   SurfaceParams surface = kPartedSurface;

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include "modules/segmenter/body_cut.hpp"
-#include "modules/segmenter/cluster_figures.hpp"
-#include "modules/segmenter/furniture.hpp"
-#include "modules/segmenter/joint_growing.hpp"
+#include "modules/segmenter/bodies/body_cut.hpp"
+#include "modules/segmenter/bodies/furniture.hpp"
+#include "modules/segmenter/growing/cluster_figures.hpp"
+#include "modules/segmenter/growing/joint_growing.hpp"
 
 namespace limbcast::segmenter {
 namespace {

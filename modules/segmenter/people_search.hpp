@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "modules/segmenter/body_classifier.hpp"
-#include "modules/segmenter/filters.hpp"
-#include "modules/segmenter/head_classifier.hpp"
-#include "modules/segmenter/head_shape.hpp"
-#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/classifiers/body_classifier.hpp"
+#include "modules/segmenter/classifiers/head_classifier.hpp"
+#include "modules/segmenter/growing/filters.hpp"
 #include "modules/segmenter/params.hpp"
+#include "modules/segmenter/scene/lattice.hpp"
+#include "modules/segmenter/seeds/head_shape.hpp"
 
 namespace limbcast::segmenter {
 

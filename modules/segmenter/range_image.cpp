@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/segmenter/lattice.hpp"
+#include "modules/segmenter/scene/lattice.hpp"
 
 namespace limbcast::segmenter {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
-#include "modules/segmenter/skin_color.hpp"
+#include "modules/segmenter/seeds/skin_color.hpp"
 
 namespace limbcast::segmenter {
 

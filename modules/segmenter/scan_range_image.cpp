@@ -3,9 +3,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "modules/segmenter/lattice.hpp"
-#include "modules/segmenter/nearest_pixels.hpp"
 #include "modules/segmenter/range_image.hpp"
+#include "modules/segmenter/scene/lattice.hpp"
+#include "modules/segmenter/scene/nearest_pixels.hpp"
 
 namespace limbcast::segmenter {
 namespace {

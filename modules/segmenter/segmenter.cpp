@@ -7,19 +7,19 @@
 #include <optional>
 #include <utility>
 
-#include "modules/segmenter/body_cut.hpp"
-#include "modules/segmenter/floating_arms.hpp"
-#include "modules/segmenter/furniture.hpp"
-#include "modules/segmenter/head_shape.hpp"
-#include "modules/segmenter/hidden_heads.hpp"
-#include "modules/segmenter/joint_growing.hpp"
-#include "modules/segmenter/lost_arms.hpp"
-#include "modules/segmenter/overlooked.hpp"
-#include "modules/segmenter/overlooked_bodies.hpp"
-#include "modules/segmenter/paper_search.hpp"
+#include "modules/segmenter/bodies/body_cut.hpp"
+#include "modules/segmenter/bodies/floating_arms.hpp"
+#include "modules/segmenter/bodies/furniture.hpp"
+#include "modules/segmenter/bodies/lost_arms.hpp"
+#include "modules/segmenter/growing/joint_growing.hpp"
+#include "modules/segmenter/growing/paper_search.hpp"
+#include "modules/segmenter/overlooked/hidden_heads.hpp"
+#include "modules/segmenter/overlooked/overlooked.hpp"
+#include "modules/segmenter/overlooked/overlooked_bodies.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
-#include "modules/segmenter/skin_seeds.hpp"
+#include "modules/segmenter/seeds/head_shape.hpp"
+#include "modules/segmenter/seeds/skin_seeds.hpp"
 
 namespace limbcast::segmenter {
 namespace {

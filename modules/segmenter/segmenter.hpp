@@ -5,16 +5,16 @@
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
-#include "modules/segmenter/body_classifier.hpp"
-#include "modules/segmenter/depth_picture.hpp"
-#include "modules/segmenter/depth_pose.hpp"
-#include "modules/segmenter/face_finder.hpp"
-#include "modules/segmenter/head_classifier.hpp"
-#include "modules/segmenter/image_opinion.hpp"
+#include "modules/segmenter/classifiers/body_classifier.hpp"
+#include "modules/segmenter/classifiers/head_classifier.hpp"
+#include "modules/segmenter/classifiers/surface_classifier.hpp"
+#include "modules/segmenter/faces_and_joints/depth_picture.hpp"
+#include "modules/segmenter/faces_and_joints/depth_pose.hpp"
+#include "modules/segmenter/faces_and_joints/face_finder.hpp"
+#include "modules/segmenter/overlooked/image_opinion.hpp"
 #include "modules/segmenter/params.hpp"
-#include "modules/segmenter/scene.hpp"
-#include "modules/segmenter/skin_color.hpp"
-#include "modules/segmenter/surface_classifier.hpp"
+#include "modules/segmenter/scene/scene.hpp"
+#include "modules/segmenter/seeds/skin_color.hpp"
 
 namespace limbcast::segmenter {
 

@@ -11,12 +11,12 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "modules/segmenter/face_finder.hpp"
-#include "modules/segmenter/neighbor_search.hpp"
-#include "modules/segmenter/paper_growing.hpp"
-#include "modules/segmenter/pose_network.hpp"
+#include "modules/segmenter/faces_and_joints/face_finder.hpp"
+#include "modules/segmenter/faces_and_joints/pose_network.hpp"
+#include "modules/segmenter/growing/neighbor_search.hpp"
+#include "modules/segmenter/growing/paper_growing.hpp"
+#include "modules/segmenter/seeds/skin_color.hpp"
 #include "modules/segmenter/segmenter.hpp"
-#include "modules/segmenter/skin_color.hpp"
 #include "tests/support/demo_frame.hpp"
 
 namespace limbcast::segmenter {

@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/arm_search.hpp"
+#include "modules/pose_fitter/refined/search/arm_search.hpp"
 
 #include <gtest/gtest.h>
 

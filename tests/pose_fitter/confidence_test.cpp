@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/confidence.hpp"
+#include "modules/pose_fitter/refined/confidence/confidence.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "modules/pose_fitter/refined/assessment.hpp"
+#include "modules/pose_fitter/refined/confidence/assessment.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {

@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/cost.hpp"
+#include "modules/pose_fitter/refined/cost/cost.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/image_start.hpp"
+#include "modules/pose_fitter/refined/search/image_start.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "modules/pose_fitter/refined/pose_search.hpp"
+#include "modules/pose_fitter/refined/search/pose_search.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {

@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/image_term.hpp"
+#include "modules/pose_fitter/refined/cost/image_term.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "modules/pose_fitter/refined/assessment.hpp"
-#include "modules/pose_fitter/refined/confidence.hpp"
+#include "modules/pose_fitter/refined/confidence/assessment.hpp"
+#include "modules/pose_fitter/refined/confidence/confidence.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {

@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/person_evidence.hpp"
+#include "modules/pose_fitter/refined/confidence/person_evidence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "modules/pose_fitter/refined/cost.hpp"
+#include "modules/pose_fitter/refined/cost/cost.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "modules/pose_fitter/refined/solver.hpp"
+#include "modules/pose_fitter/refined/search/solver.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
 namespace limbcast::pose_fitter {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/pose_fitter/refined/image_term.hpp"
+#include "modules/pose_fitter/refined/cost/image_term.hpp"
 
 namespace limbcast::pose_fitter::testing {
 namespace {

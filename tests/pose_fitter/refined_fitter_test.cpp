@@ -9,9 +9,9 @@
 
 #include "common/angle.hpp"
 #include "common/human_model/human_model.hpp"
-#include "modules/pose_fitter/refined/evidence.hpp"
+#include "modules/pose_fitter/refined/confidence/evidence.hpp"
 #include "modules/pose_fitter/refined/links_and_angles.hpp"
-#include "modules/pose_fitter/refined/pose_search.hpp"
+#include "modules/pose_fitter/refined/search/pose_search.hpp"
 #include "tests/pose_fitter/refined_body.hpp"
 
 namespace limbcast::pose_fitter {

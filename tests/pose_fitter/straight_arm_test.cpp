@@ -1,4 +1,4 @@
-#include "modules/pose_fitter/refined/straight_arm.hpp"
+#include "modules/pose_fitter/refined/search/straight_arm.hpp"
 
 #include <gtest/gtest.h>
 

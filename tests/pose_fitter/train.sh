@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fits the confidences of the refined fitter anew: simulates people and rooms without any, runs the chain on them and on
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
-# modules/pose_fitter/refined and prints how often what was told with which probability came true. Build again afterwards.
+# modules/pose_fitter/refined/confidence and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
 #   SIMULATED_DIR   11000 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
@@ -127,6 +127,6 @@ for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); do
 for set in pointing multi multi2 general depth_pointing depth_multi colorless_pointing colorless_multi dense_pointing laser_pointing; do
   with_truth+=("$simulated/p_$set")
 done
-"$bin/limbcast-train-confidences" modules/pose_fitter/refined/confidence_coefficients.inc "${with_truth[@]}" "${recorded[@]}"
-"$bin/limbcast-train-persons" modules/pose_fitter/refined/person_trees.inc "${folders[@]}" "${recorded[@]}" \
+"$bin/limbcast-train-confidences" modules/pose_fitter/refined/confidence/confidence_coefficients.inc "${with_truth[@]}" "${recorded[@]}"
+"$bin/limbcast-train-persons" modules/pose_fitter/refined/confidence/person_trees.inc "${folders[@]}" "${recorded[@]}" \
   "$data/stereo_dev/nohuman"

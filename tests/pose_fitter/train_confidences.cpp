@@ -1,5 +1,5 @@
 // Fits the coefficients of the refined fitter's confidences and writes
-// modules/pose_fitter/refined/confidence_coefficients.inc:
+// modules/pose_fitter/refined/confidence/confidence_coefficients.inc:
 // limbcast-train-confidences OUT.inc FOLDER... runs the chain on each folder's frames and asks the
 // truth of what was fitted. Frames that show bodies D4 or D5 are left out: they are for checking.
 // train.sh makes the simulated folders and runs it on all that the coefficients were fitted to.
@@ -18,8 +18,8 @@
 
 #include "common/units.hpp"
 #include "modules/evaluate/evaluation.hpp"
-#include "modules/pose_fitter/refined/assessment.hpp"
-#include "modules/pose_fitter/refined/confidence.hpp"
+#include "modules/pose_fitter/refined/confidence/assessment.hpp"
+#include "modules/pose_fitter/refined/confidence/confidence.hpp"
 #include "tests/pose_fitter/fitted_frames.hpp"
 #include "tests/pose_fitter/logistic_regression.hpp"
 #include "tests/pose_fitter/reliability.hpp"

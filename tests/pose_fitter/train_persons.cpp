@@ -1,5 +1,5 @@
 // Trains the boosted trees of a person's confidence and writes
-// modules/pose_fitter/refined/person_trees.inc:
+// modules/pose_fitter/refined/confidence/person_trees.inc:
 // limbcast-train-persons OUT.inc FOLDER... runs the chain on each folder's frames, with a segmenter
 // that takes more things for people than it does by default, and asks the truth which bodies were
 // people's. Prints how often what was told came true, and what each limit lets through, of frames
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/pose_fitter/refined/confidence.hpp"
+#include "modules/pose_fitter/refined/confidence/confidence.hpp"
 #include "tests/pose_fitter/fitted_frames.hpp"
 #include "tests/pose_fitter/reliability.hpp"
 #include "tests/pose_fitter/tree_boosting.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "modules/pose_fitter/refined/boosted_trees.hpp"
+#include "modules/pose_fitter/refined/confidence/boosted_trees.hpp"
 
 namespace limbcast::pose_fitter {
 

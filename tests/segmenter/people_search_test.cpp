@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "modules/segmenter/segmenter.hpp"
-#include "tests/segmenter/constant_classifier.hpp"
-#include "tests/segmenter/drawn_scene.hpp"
+#include "tests/segmenter/classifiers/constant_classifier.hpp"
+#include "tests/segmenter/scene/drawn_scene.hpp"
 #include "tests/support/demo_frame.hpp"
 
 namespace limbcast::segmenter {

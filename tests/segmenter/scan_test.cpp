@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "common/units.hpp"
-#include "modules/segmenter/cluster_figures.hpp"
-#include "modules/segmenter/panorama.hpp"
+#include "modules/segmenter/growing/cluster_figures.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
+#include "modules/segmenter/scene/panorama.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/segmenter/simulated_person.hpp"
 

@@ -1,8 +1,7 @@
 #!/bin/bash
 # Trains the classifiers of heads, bodies and surfaces from nothing: simulates people for each sensor, trains on them
-# and on the recordings of bodies D1 to D3, and writes modules/segmenter/head_networks.inc, body_network.inc and
-# surface_network.inc.
-# Build again afterwards.
+# and on the recordings of bodies D1 to D3, and writes head_networks.inc, body_network.inc and
+# surface_network.inc of modules/segmenter/classifiers. Build again afterwards.
 # Usage: tests/segmenter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
 #   SIMULATED_DIR   3260 simulated frames, 2 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev, laser_dev and rgbd_pointing
@@ -58,7 +57,7 @@ simulate l_nohuman2 nohuman laser 80 208
 
 recorded=()
 for set in general pointing multi nohuman sequence hd distorted; do recorded+=("$data/stereo_dev/$set"); done
-"$bin/limbcast-train-heads" modules/segmenter/head_networks.inc "${folders[@]}" "${recorded[@]}" \
+"$bin/limbcast-train-heads" modules/segmenter/classifiers/head_networks.inc "${folders[@]}" "${recorded[@]}" \
   "$data/laser_dev" "$data/rgbd_pointing"
 
 # What people sit on, as a depth camera and as any matcher tells it. Of the other sets those with most people.
@@ -69,7 +68,7 @@ for set in d_multi d_multi2 d_general d_sit t_sit t_multi t_general s_general s_
   bodies+=("$simulated/$set")
 done
 for set in general pointing multi hd; do bodies+=("$data/stereo_dev/$set"); done
-"$bin/limbcast-train-bodies" modules/segmenter/body_network.inc "${bodies[@]}"
+"$bin/limbcast-train-bodies" modules/segmenter/classifiers/body_network.inc "${bodies[@]}"
 
 # Bodies and furniture as cameras see them, whole and cut by the image's edge.
 surfaces=()
@@ -78,4 +77,4 @@ for set in s_multi s_multi2 s_general s_general2 s_pointing s_nohuman s_nohuman2
   surfaces+=("$simulated/$set")
 done
 for set in general pointing multi hd; do surfaces+=("$data/stereo_dev/$set"); done
-"$bin/limbcast-train-surfaces" modules/segmenter/surface_network.inc "${surfaces[@]}"
+"$bin/limbcast-train-surfaces" modules/segmenter/classifiers/surface_network.inc "${surfaces[@]}"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "modules/pose_fitter/refined/pose_search.hpp"
+#include "modules/pose_fitter/refined/search/pose_search.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

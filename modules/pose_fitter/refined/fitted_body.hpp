@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "modules/pose_fitter/refined/person_evidence.hpp"
+#include "modules/pose_fitter/refined/confidence/person_evidence.hpp"
 
 namespace limbcast::pose_fitter::refined {
 

@@ -1,6 +1,6 @@
 #include "modules/pose_fitter/refined/refined_fitter.hpp"
 
-#include "modules/pose_fitter/refined/assessment.hpp"
+#include "modules/pose_fitter/refined/confidence/assessment.hpp"
 #include "modules/pose_fitter/refined/fitted_body.hpp"
 #include "modules/pose_fitter/refined/links_and_angles.hpp"
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "modules/segmenter/faces_and_joints/depth_pose.hpp"
+#include "modules/segmenter/params.hpp"
+#include "modules/segmenter/people_search.hpp"
+#include "modules/segmenter/scene/lattice.hpp"
+#include "modules/segmenter/scene/scene.hpp"
+#include "modules/segmenter/seeds/head_shape.hpp"
+
+namespace limbcast::segmenter {
+
+/// Candidates that were refused by the depths around them or by what grew, and may be heads all the
+/// same, the likeliest first: apart from the people who were found, on surfaces that nobody has.
+std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPeople& people,
+                                           const OverlookedParams& params);
+
+/// Candidates that were refused as parts of people who were found, and may be heads of others who
+/// touch them.
+std::vector<HeadCandidate> find_merged(const Lattice& lattice, const FoundPeople& people,
+                                       const OverlookedParams& params);
+
+/// Heads that the network of depths is asked about, and what it must tell of each.
+struct AskedHeads {
+  std::vector<HeadCandidate> heads;
+  const std::vector<std::int16_t>& labels;  ///< whose each of the cloud's points is
+  std::int16_t first_label = 0;             ///< that of the first head; the others' follow
+  float min_person_odds = 0.0F;             ///< log odds
+  float max_head_error_m =
+      std::numeric_limits<float>::infinity();  ///< from where it marks the head
+};
+
+/// Those whose whole bodies it takes for people.
+std::vector<HeadCandidate> heads_of_people(const Scene& scene, AskedHeads asked,
+                                           const Params& params, const DepthPose& network);
+
+}  // namespace limbcast::segmenter

@@ -1,0 +1,87 @@
+#include "modules/segmenter/overlooked/overlooked_bodies.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "modules/segmenter/faces_and_joints/depth_picture.hpp"
+#include "modules/segmenter/faces_and_joints/labelled_person.hpp"
+#include "modules/segmenter/overlooked/hidden_heads.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+/// The surfaces that the network is asked about, the likeliest first.
+std::vector<HeadlessSurface> likeliest_bodies(const Scene& scene, const Surfaces& surfaces,
+                                              const FoundPeople& people, const BodyJudges& judges) {
+  const HiddenHeadParams& params = judges.params.overlooked_bodies;
+  std::vector<HeadlessSurface> bodies;
+  for (HeadlessSurface& body : find_body_parts(scene.lattice, surfaces, people, params)) {
+    if (people.labels[body.points.front()] != kNobody) continue;
+    // Trained on cameras' clouds; of others the largest come first.
+    if (scene.cloud.organized())
+      body.head.odds = judges.classifier.mean_odds(scene.lattice, body.points);
+    if (body.head.odds >= params.min_part_odds) bodies.push_back(std::move(body));
+  }
+  std::stable_sort(
+      bodies.begin(), bodies.end(),
+      [](const HeadlessSurface& a, const HeadlessSurface& b) { return a.head.odds > b.head.odds; });
+  bodies.resize(std::min(bodies.size(), static_cast<std::size_t>(params.max_asked)));
+  return bodies;
+}
+
+/// Where the network sees the head of a person in sight; nothing where it sees none. `body`'s own
+/// head is a guess.
+std::optional<HeadCandidate> head_in_depths(const Scene& scene, LabelledPerson body,
+                                            const BodyJudges& judges) {
+  const OverlookedParams& params = judges.params.overlooked;
+  const auto see = [&](float min_odds) -> std::optional<PoseInDepths> {
+    const auto picture = draw_depths(scene, body, judges.params.depth_pose.picture);
+    return picture ? judges.network.see_person(*picture, min_odds) : std::nullopt;
+  };
+  const auto first = see(params.min_person_odds - params.guess_costs_odds);
+  if (!first) return std::nullopt;
+  // Once more with the head where it was seen.
+  body.head_m = first->places_m[index(Joint::kHead)];
+  const auto pose = see(params.min_person_odds);
+  if (!pose) return std::nullopt;
+  auto head =
+      head_near(scene.lattice, scene.lattice.frame.to_level(pose->places_m[index(Joint::kHead)]));
+  if (!head) return std::nullopt;
+  head->kind = SeedKind::kBody;
+  head->odds = params.head_odds;
+  head->told_by_body = true;
+  return head;
+}
+
+}  // namespace
+
+std::vector<HeadCandidate> find_overlooked_bodies(const Scene& scene, const Surfaces& surfaces,
+                                                  const FoundPeople& people,
+                                                  const BodyJudges& judges) {
+  if (!judges.params.depth_pose.enabled) return {};
+  const std::vector<HeadlessSurface> bodies = likeliest_bodies(scene, surfaces, people, judges);
+  if (bodies.empty()) return {};
+  const auto label_of = [&](std::size_t k) {
+    return static_cast<std::int16_t>(people.heads.size() + k);
+  };
+  std::vector<std::int16_t> labels = people.labels;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    for (const std::uint32_t i : bodies[k].points) labels[i] = label_of(k);
+  }
+  labels = labels_of_cloud(scene, labels, judges.params.joint);
+  std::vector<std::optional<HeadCandidate>> heads(bodies.size());
+  tbb::parallel_for(std::size_t{0}, bodies.size(), [&](std::size_t k) {
+    const Eigen::Vector3f guess_m = scene.lattice.frame.to_sensor(bodies[k].head.center_m);
+    heads[k] = head_in_depths(scene, {labels, label_of(k), guess_m}, judges);
+  });
+  std::vector<HeadCandidate> seen;
+  for (const auto& head : heads) {
+    if (head) seen.push_back(*head);
+  }
+  return seen;
+}
+
+}  // namespace limbcast::segmenter

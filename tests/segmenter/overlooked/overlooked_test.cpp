@@ -1,0 +1,206 @@
+#include "modules/segmenter/overlooked/overlooked.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/segmenter/segmenter.hpp"
+#include "tests/segmenter/scene/drawn_scene.hpp"
+#include "tests/segmenter/simulated_person.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+/// A figure that was found and two that were not, side by side before the sensor.
+class RefusedHeads : public ::testing::Test {
+ protected:
+  RefusedHeads() {
+    found_.labels.assign(lattice_.size(), kNobody);
+    for (std::uint32_t i = 0; i < lattice_.size(); ++i) {
+      if (lattice_.depth_m[i] > 0.0F && lattice_.level_m[i].x() < -0.3F) found_.labels[i] = 0;
+    }
+    found_.heads.push_back(head_at(lattice_, kFound_m, kHead_m));
+  }
+
+  static HeadCandidate as_likely(HeadCandidate head, float odds) {
+    head.odds = odds;
+    head.score = 2.0F;
+    return head;
+  }
+  void refuse(const HeadCandidate& head, SegmentFilter filter = SegmentFilter::kNotHeadShaped) {
+    found_.rejected.push_back({head, {filter, 0.1F, 0.3F}});
+  }
+  std::vector<HeadCandidate> overlooked() const { return find_overlooked(lattice_, found_, {}); }
+
+  static constexpr float kFound_m = -0.7F, kFirst_m = 0.1F, kSecond_m = 0.7F, kHead_m = 0.8F;
+  const Lattice lattice_ = look_at([](float right_m, float up_m) {
+    const bool figure = std::abs(right_m - kFound_m) < 0.2F ||
+                        std::abs(right_m - kFirst_m) < 0.2F || std::abs(right_m - kSecond_m) < 0.2F;
+    return figure && up_m < 0.9F ? kBody_m : 0.0F;
+  });
+  const HeadCandidate first_ = as_likely(head_at(lattice_, kFirst_m, kHead_m), -3.0F);
+  const HeadCandidate second_ = as_likely(head_at(lattice_, kSecond_m, kHead_m), -2.0F);
+  FoundPeople found_;
+};
+
+TEST_F(RefusedHeads, AreAskedAboutTheLikeliestFirst) {
+  refuse(first_);
+  refuse(second_);
+  const auto asked = overlooked();
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0].u, second_.u);
+  EXPECT_EQ(asked[1].u, first_.u);
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutOnSomebodyWhoWasFound) {
+  refuse(as_likely(head_at(lattice_, kFound_m, kHead_m - 1.0F), -2.0F));
+  EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutBesideAHeadThatWasFound) {
+  found_.heads.push_back(head_at(lattice_, kFirst_m, kHead_m - 0.4F));
+  refuse(first_);
+  EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreAskedAboutOnceWhereTwoAreOneFigures) {
+  refuse(first_);
+  refuse(as_likely(head_at(lattice_, kFirst_m, kHead_m - 0.2F), -4.0F));
+  EXPECT_EQ(overlooked().size(), 1U);
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutWhereNothingSpeaksForThem) {
+  refuse(as_likely(first_, -6.5F));
+  HeadCandidate shapeless = second_;
+  shapeless.score = 1.0F;
+  refuse(shapeless);
+  EXPECT_TRUE(overlooked().empty());
+}
+
+TEST_F(RefusedHeads, AreAskedAboutWhereTheirClusterWentOnIntoAWall) {
+  refuse(first_, SegmentFilter::kTooManyPoints);
+  refuse(second_, SegmentFilter::kSeedNotHead);
+  EXPECT_EQ(overlooked().size(), 2U);
+}
+
+TEST_F(RefusedHeads, AreNotAskedAboutWhereAnotherFilterEndedThem) {
+  refuse(first_, SegmentFilter::kSamePerson);
+  EXPECT_TRUE(overlooked().empty());
+}
+
+/// Candidates that were refused as parts of the figure that was found.
+class MergedHeads : public RefusedHeads {
+ protected:
+  void merge(HeadCandidate head, float odds = 0.0F) {
+    head.odds = odds;
+    refuse(head, SegmentFilter::kSamePerson);
+  }
+  std::vector<HeadCandidate> merged() const { return find_merged(lattice_, found_, {}); }
+};
+
+TEST_F(MergedHeads, AreAskedAbout) {
+  merge(first_);
+  const auto asked = merged();
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_EQ(asked[0].u, first_.u);
+}
+
+TEST_F(MergedHeads, AreNotAskedAboutBehindAHeadThatHidesThem) {
+  HeadCandidate behind = found_.heads[0];
+  behind.center_m.y() += 0.5F;
+  merge(behind);
+  EXPECT_TRUE(merged().empty());
+}
+
+TEST_F(MergedHeads, AreNotAskedAboutWhereNothingSpeaksForThem) {
+  merge(first_, -2.0F);
+  refuse(second_, SegmentFilter::kNotHeadShaped);
+  EXPECT_TRUE(merged().empty());
+}
+
+/// What a segmenter finds that takes no head for one by the depths around it.
+class HeadsThatLookLikeNone : public ::testing::TestWithParam<std::uint64_t> {
+ protected:
+  static Params strict() {
+    Params params;
+    params.classifier.min_head_odds = 100.0F;
+    params.overlooked.min_head_odds = -100.0F;
+    // Of all candidates only the likeliest: the limit of their log odds, too, keeps the others out.
+    params.overlooked.max_asked = 3;
+    params.overlooked.head_odds = 101.0F;
+    // The other ways to people whose heads are not told.
+    params.overlooked_bodies.max_asked = 0;
+    params.hidden_heads.min_body_odds = 100.0F;
+    return params;
+  }
+  static std::size_t count_people(const simulate::SimulatorParams& scene, std::uint64_t seed,
+                                  const Params& params) {
+    const Segments found =
+        segment(depth_cloud(scene, simulate::simulate_frame(scene, seed, 0)), params);
+    return static_cast<std::size_t>(
+        std::count_if(found.segments.begin(), found.segments.end(),
+                      [](const Segment& segment) { return segment.valid(); }));
+  }
+};
+
+TEST_P(HeadsThatLookLikeNone, AreToldByTheWholeBodyInDepths) {
+  const auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  EXPECT_EQ(count_people(scene, GetParam(), strict()), 1U);
+  Params nobody_asked = strict();
+  nobody_asked.overlooked.max_asked = 0;
+  EXPECT_EQ(count_people(scene, GetParam(), nobody_asked), 0U);
+}
+
+TEST_P(HeadsThatLookLikeNone, AreToldByASurfaceThatNobodyHas) {
+  const auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  Params no_heads_asked = strict();
+  no_heads_asked.overlooked.max_asked = 0;
+  no_heads_asked.overlooked_bodies = kOverlookedBodies;
+  EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 1U);
+}
+
+TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
+  simulate::SimulatorParams room = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  room.scenario.set = simulate::SetKind::kNoHuman;
+  Params all_asked = strict();
+  all_asked.overlooked_bodies = kOverlookedBodies;
+  EXPECT_EQ(count_people(room, GetParam(), all_asked), 0U);
+}
+
+/// How many of the true people in sight have a segment that began at their heads.
+std::ptrdiff_t count_found(const Cloud& cloud, const simulate::SimulatedFrame& frame,
+                           const Params& params) {
+  constexpr float kSameHead_m = 0.2F;
+  const Segments found = segment(cloud, params);
+  return std::count_if(
+      frame.scenario.persons.begin(), frame.scenario.persons.end(),
+      [&](const simulate::Person& person) {
+        const Eigen::Vector3f head_m = person.skeleton[Joint::kHead].cast<float>();
+        return std::any_of(found.segments.begin(), found.segments.end(),
+                           [&](const Segment& segment) {
+                             return segment.valid() &&
+                                    (behind_surface(segment.seed_m) - head_m).norm() < kSameHead_m;
+                           });
+      });
+}
+
+/// Groups of five, two of whom touch.
+class PeopleWhoTouch : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(PeopleWhoTouch, AreFoundWhereOneWasTakenForAPartOfTheOther) {
+  auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  scene.scenario.set = simulate::SetKind::kMulti;
+  const simulate::SimulatedFrame frame = simulate::simulate_frame(scene, GetParam(), 0);
+  const Cloud cloud = depth_cloud(scene, frame);
+  Params nobody_asked;
+  nobody_asked.overlooked.min_merged_odds = 100.0F;
+  EXPECT_EQ(count_found(cloud, frame, nobody_asked), 4);
+  EXPECT_EQ(count_found(cloud, frame, {}), 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Simulated, PeopleWhoTouch, ::testing::Values(13, 41));
+INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
+
+}  // namespace
+}  // namespace limbcast::segmenter
