@@ -41,6 +41,7 @@ Posture between(const Posture& from, const Posture& to, double share) {
                     a.normalized());
   };
   Posture result = share < 1.0 ? from : to;
+  result.pelvis_lean_rad = mixed(from.pelvis_lean_rad, to.pelvis_lean_rad);
   result.lean_rad = mixed(from.lean_rad, to.lean_rad);
   result.side_lean_rad = mixed(from.side_lean_rad, to.side_lean_rad);
   result.twist_rad = mixed(from.twist_rad, to.twist_rad);

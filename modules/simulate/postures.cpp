@@ -12,22 +12,29 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Draws an arm until it goes through nothing; after 30 draws the best so far.
-void set_arm(Rng& rng, const BodyShape& body, const std::string& name, Side side,
-             Posture& posture) {
+/// Draws an arm until it goes through nothing; after 30 draws the best so far. Its clearance [m].
+template <class Draw>
+double set_clear_arm(const BodyShape& body, Side side, Posture& posture, const Draw& draw) {
   constexpr double kEnough =
       0.012;  // the middle of a wrist lies 2.5 cm under its skin; flesh gives way
   double best = -1.0;
   ArmPose best_arm;
   for (int attempt = 0; attempt < 30 && best < kEnough; ++attempt) {
-    posture.arms[static_cast<int>(side)] = draw_arm(rng, body, name);
+    posture.arms[static_cast<int>(side)] = draw();
     const double clearance = arm_clearance_m(body, posture, side);
     if (clearance <= best) continue;
     best = clearance;
     best_arm = posture.arms[static_cast<int>(side)];
   }
-  if (best < 0.0 && name != "hang") return set_arm(rng, body, "hang", side, posture);
   posture.arms[static_cast<int>(side)] = best_arm;
+  return best;
+}
+
+void set_arm(Rng& rng, const BodyShape& body, const std::string& name, Side side,
+             Posture& posture) {
+  const double clearance =
+      set_clear_arm(body, side, posture, [&] { return draw_arm(rng, body, name); });
+  if (clearance < 0.0 && name != "hang") set_arm(rng, body, "hang", side, posture);
 }
 
 void stand(Rng& rng, Posture& posture) {
@@ -63,6 +70,35 @@ void move_trunk(Rng& rng, Posture& posture) {
   posture.head_yaw_rad = std::clamp(rng.normal(0.0, 0.35), -1.1, 1.1);
   posture.head_pitch_rad = std::clamp(rng.normal(0.05, 0.20), -0.6, 0.7);
   posture.head_roll_rad = rng.normal(0.0, 0.08);
+}
+
+/// Bends from hips and waist, as to pick something up or to rise from a seat.
+void bow(Rng& rng, const BodyShape& body, Posture& posture) {
+  const double bow_rad = rng.uniform(0.6, 1.6);  // a back that is level, and a little more
+  const double of_hips = rng.uniform(0.5, 0.7);
+  move_trunk(rng, posture);
+  posture.pelvis_lean_rad = of_hips * bow_rad;
+  posture.lean_rad += (1.0 - of_hips) * bow_rad;
+  posture.head_pitch_rad -= rng.uniform(0.0, 0.5) * bow_rad;  // most look ahead
+  for (LegPose& leg : posture.legs) {
+    leg.thigh.z() += rng.uniform(0.1, 0.6);  // hips go back as the head goes forward
+    leg.shank.z() -= rng.uniform(0.0, 0.4);
+  }
+  const double straight_down_deg = bow_rad * kDegreesPerRadian<double> - 90.0;  // for the trunk
+  const auto hanging = [&] {
+    const double elevation_deg = straight_down_deg + rng.normal(0.0, 15.0);
+    const double azimuth_deg = rng.uniform(-15.0, 35.0), bend_deg = rng.uniform(0.0, 40.0);
+    return stretched_arm(rng, body, heading(azimuth_deg, elevation_deg), bend_deg,
+                         HandShape::kOpen);
+  };
+  static const char* const kBusy[] = {"lap", "akimbo", "back", "reachF", "texting"};
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    if (rng.chance(0.3)) {
+      set_arm(rng, body, kBusy[rng.pick(5)], side, posture);
+    } else {
+      set_clear_arm(body, side, posture, hanging);
+    }
+  }
 }
 
 struct Habit {
@@ -104,7 +140,7 @@ const std::vector<std::string>& natural_posture_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
     for (const Habit& habit : habits()) result.push_back(habit.name);
-    for (const char* name : {"walk", "sit", "squat", "lean"}) result.emplace_back(name);
+    for (const char* name : {"walk", "sit", "squat", "lean", "bow"}) result.emplace_back(name);
     return result;
   }();
   return names;
@@ -187,6 +223,10 @@ Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
     arms[0] = arms[1] = "reachF";
   }
   posture.name = name;
+  if (name == "bow") {
+    bow(rng, body, posture);
+    return posture;
+  }
   move_trunk(rng, posture);
   set_arm(rng, body, arms[0], Side::kLeft, posture);
   set_arm(rng, body, arms[1], Side::kRight, posture);

@@ -75,20 +75,17 @@ void place_arm(const BodyShape& body, const ArmPose& pose, int side, Skeleton& s
   skeleton.fingertip[side] = joint(Joint::kWristLeft) + tip * body.hand_m * hand.col(1);
 }
 
-void place_leg(const BodyShape& body, const LegPose& pose, int side, Skeleton& skeleton) {
-  const Matrix3d& pelvis = skeleton.pelvis_R;
+void place_leg(const BodyShape& body, const LegPose& pose, int side, const Matrix3d& level,
+               Skeleton& skeleton) {
   const auto joint = [&](Joint left) -> Vector3d& { return skeleton[on_side(left, Side(side))]; };
   joint(Joint::kHipLeft) =
-      skeleton[Joint::kPelvis] + pelvis * to_body({body.hip_half_m, 0, 0}, side);
+      skeleton[Joint::kPelvis] + level * to_body({body.hip_half_m, 0, 0}, side);
   joint(Joint::kKneeLeft) =
-      joint(Joint::kHipLeft) + body.thigh_m * (pelvis * to_body(pose.thigh.normalized(), side));
-  const Vector3d shank = pelvis * to_body(pose.shank.normalized(), side);
+      joint(Joint::kHipLeft) + body.thigh_m * (level * to_body(pose.thigh.normalized(), side));
+  const Vector3d shank = level * to_body(pose.shank.normalized(), side);
   joint(Joint::kAnkleLeft) = joint(Joint::kKneeLeft) + body.shank_m * shank;
 
   const double outward = side == 0 ? pose.foot_yaw_rad : -pose.foot_yaw_rad;
-  // The pelvis leans with the trunk when seated; feet stand level all the same.
-  const Vector3d left = pelvis.col(0);
-  const Matrix3d level = frame_along(Vector3d::UnitY(), left);
   skeleton.foot_R[side] = level * about_y(outward) * about_x(pose.foot_pitch_rad);
   skeleton.toe[side] =
       joint(Joint::kAnkleLeft) +
@@ -152,12 +149,13 @@ ArmPose reach(const BodyShape& body, const Vector3d& wrist_m, const Vector3d& po
 
 Skeleton make_skeleton(const BodyShape& body, const Posture& posture, const Place& place) {
   Skeleton skeleton;
-  skeleton.pelvis_R = about_y(3.14159265358979 + place.yaw_rad);
+  const Matrix3d level = about_y(3.14159265358979 + place.yaw_rad);
+  skeleton.pelvis_R = level * about_x(posture.pelvis_lean_rad);
   skeleton[Joint::kPelvis] = Vector3d(place.x_m, 0.0, place.z_m);
   place_trunk(body, posture, skeleton);
   for (int side = 0; side < 2; ++side) {
     place_arm(body, posture.arms[side], side, skeleton);
-    place_leg(body, posture.legs[side], side, skeleton);
+    place_leg(body, posture.legs[side], side, level, skeleton);
   }
   const double ground = std::min(sole_height(body, skeleton, 0), sole_height(body, skeleton, 1));
   for_each_point(skeleton, [ground](Vector3d& point) { point.y() -= ground; });

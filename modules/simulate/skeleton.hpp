@@ -22,7 +22,8 @@ struct ArmPose {
   HandShape hand = HandShape::kOpen;
 };
 
-/// Directions in the pelvis' frame seen from the leg's own side: x outward, y up, z forward.
+/// Directions seen from the leg's own side: x outward, y up, z forward, level however the pelvis
+/// leans.
 struct LegPose {
   Eigen::Vector3d thigh{0.06, -1.0, 0.0};
   Eigen::Vector3d shank{0.05, -1.0, -0.17};
@@ -33,9 +34,10 @@ struct LegPose {
 /// A pose without a place: what the joints of a body do.
 struct Posture {
   std::string name = "hang";
-  double lean_rad = 0.0;       ///< of the trunk, forward
-  double side_lean_rad = 0.0;  ///< to the own left
-  double twist_rad = 0.0;      ///< of the chest on the pelvis, to the own left
+  double pelvis_lean_rad = 0.0;  ///< of the pelvis, forward, and the trunk with it
+  double lean_rad = 0.0;         ///< of the trunk on the pelvis, forward
+  double side_lean_rad = 0.0;    ///< to the own left
+  double twist_rad = 0.0;        ///< of the chest on the pelvis, to the own left
   double head_yaw_rad = 0.0, head_pitch_rad = 0.0,
          head_roll_rad = 0.0;   ///< to the own left, down, to the own left
   std::array<ArmPose, 2> arms;  ///< index: Side

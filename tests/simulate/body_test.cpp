@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/units.hpp"
 #include "modules/simulate/body_surface.hpp"
 #include "modules/simulate/postures.hpp"
 
@@ -110,6 +111,20 @@ TEST(Skeleton, StandsOnTheGround) {
 
     EXPECT_GT(lower, 0.5 * body.ankle_height_m) << name;
     EXPECT_LT(lower, 1.0 * body.ankle_height_m + 0.3 * body.foot_m) << name;
+  }
+}
+
+TEST(Skeleton, BowsFromTheHipsWithItsLegsUpright) {
+  Rng rng(7);
+  const BodyShape body = draw_body(rng);
+  for (int i = 0; i < 30; ++i) {
+    const Skeleton skeleton = make_skeleton(body, draw_posture(rng, body, "bow"), {});
+    const Vector3d back = (skeleton[Joint::kNeck] - skeleton[Joint::kPelvis]).normalized();
+    const Vector3d leg = (skeleton[Joint::kHipLeft] - skeleton[Joint::kAnkleLeft]).normalized();
+
+    EXPECT_LT(back.y(), std::cos(radians(20.0)));
+    EXPECT_GT(back.dot(skeleton.foot_R[0].col(2)), 0.3);  // to where the toes point
+    EXPECT_GT(leg.y(), std::cos(radians(30.0)));
   }
 }
 
