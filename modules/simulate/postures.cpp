@@ -101,6 +101,45 @@ void bow(Rng& rng, const BodyShape& body, Posture& posture) {
   }
 }
 
+/// On both knees or on one, upright or sitting on the heels.
+void kneel(Rng& rng, Posture& posture) {
+  const bool on_one = rng.chance(0.5);
+  const double back = on_one ? 0.0 : rng.uniform(0.0, 1.2);  // of who sits on the heels
+  const int front = rng.pick(2);
+  for (int side = 0; side < 2; ++side) {
+    LegPose& leg = posture.legs[side];
+    if (on_one && side == front) {
+      leg.thigh = {0.15 + rng.normal(0.0, 0.08), rng.normal(0.15, 0.05), 1.0};
+      leg.shank = {rng.normal(0.0, 0.08), -1.0, rng.normal(0.0, 0.15)};
+      continue;
+    }
+    leg.thigh = {0.1 + rng.normal(0.0, 0.06), -1.0, back + rng.normal(0.0, 0.08)};
+    const bool on_toes = rng.chance(0.5);  // or the instep on the ground
+    leg.shank = {rng.normal(0.0, 0.08), on_toes ? 0.3 : 0.0, -1.0};
+    leg.foot_pitch_rad = on_toes ? rng.uniform(1.2, 1.5) : rng.uniform(2.6, 3.0);
+  }
+  posture.lean_rad = rng.uniform(-0.05, 0.5);
+}
+
+/// On the ground, legs stretched, drawn up or crossed.
+void sit_on_floor(Rng& rng, Posture& posture) {
+  const double kind = rng.uniform();
+  for (LegPose& leg : posture.legs) {
+    if (kind < 0.35) {  // stretched
+      leg.thigh = {0.15 + rng.normal(0.0, 0.1), rng.uniform(0.0, 0.4), 1.0};
+      leg.shank = {rng.normal(0.0, 0.08), -leg.thigh.y() - 0.1, 1.0};
+      leg.foot_pitch_rad = -rng.uniform(0.8, 1.4);
+    } else if (kind < 0.7) {  // drawn up
+      leg.thigh = {0.1 + rng.normal(0.0, 0.12), rng.uniform(0.7, 1.3), 1.0};
+      leg.shank = {rng.normal(0.0, 0.08), -1.0, rng.normal(0.1, 0.2)};
+    } else {  // crossed
+      leg.thigh = {rng.uniform(0.6, 1.0), rng.uniform(0.0, 0.3), 1.0};
+      leg.shank = {-1.0, -0.25, rng.uniform(-0.3, 0.2)};
+    }
+  }
+  posture.lean_rad = rng.uniform(-0.2, 0.5);
+}
+
 struct Habit {
   std::string name, left, right;  ///< what the arms do; left and right swap at random
   double weight;
@@ -140,7 +179,8 @@ const std::vector<std::string>& natural_posture_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
     for (const Habit& habit : habits()) result.push_back(habit.name);
-    for (const char* name : {"walk", "sit", "squat", "lean", "bow"}) result.emplace_back(name);
+    for (const char* name : {"walk", "sit", "squat", "lean", "bow", "kneel", "floor"})
+      result.emplace_back(name);
     return result;
   }();
   return names;
@@ -221,6 +261,16 @@ Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
   } else if (name == "lean") {
     posture.lean_rad = rng.uniform(0.3, 0.9);
     arms[0] = arms[1] = "reachF";
+  }
+  if (name == "kneel") {
+    kneel(rng, posture);
+  } else if (name == "floor") {
+    sit_on_floor(rng, posture);
+  }
+  if (name == "kneel" || name == "floor") {
+    static const char* const kBusy[] = {"lap",  "hang",   "gesture", "reachF",
+                                        "wave", "folded", "texting", "carry"};
+    for (std::string& arm : arms) arm = kBusy[rng.pick(8)];
   }
   posture.name = name;
   if (name == "bow") {

@@ -101,6 +101,18 @@ double sole_height(const BodyShape& body, const Skeleton& skeleton, int side) {
   return std::min(heel, ball);
 }
 
+/// Height of the lowest part of the body: a sole, a knee, the seat.
+double lowest_height(const BodyShape& body, const Skeleton& skeleton) {
+  const double knee_m = 0.035 * body.stature_m;
+  const double seat_m = 0.055 * body.stature_m * body.hip_girth + 0.5 * body.clothes.legs_m;
+  double lowest = skeleton[Joint::kPelvis].y() - seat_m;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    lowest = std::min({lowest, sole_height(body, skeleton, static_cast<int>(side)),
+                       skeleton[on_side(Joint::kKneeLeft, side)].y() - knee_m});
+  }
+  return lowest;
+}
+
 template <class Change>
 void for_each_point(Skeleton& skeleton, const Change& change) {
   for (auto& joint : skeleton.joints) change(joint);
@@ -157,7 +169,7 @@ Skeleton make_skeleton(const BodyShape& body, const Posture& posture, const Plac
     place_arm(body, posture.arms[side], side, skeleton);
     place_leg(body, posture.legs[side], side, level, skeleton);
   }
-  const double ground = std::min(sole_height(body, skeleton, 0), sole_height(body, skeleton, 1));
+  const double ground = lowest_height(body, skeleton);
   for_each_point(skeleton, [ground](Vector3d& point) { point.y() -= ground; });
   return skeleton;
 }

@@ -75,8 +75,8 @@ Eigen::Vector3d shoulder_offset_m(const BodyShape& body, const Eigen::Vector3d& 
 /// as it reaches; the elbow lies towards `pole`.
 ArmPose reach(const BodyShape& body, const Eigen::Vector3d& wrist_m, const Eigen::Vector3d& pole);
 
-/// Joints of `body` in `posture`, its lowest foot on the ground (seated: both feet), in the world's
-/// frame.
+/// Joints of `body` in `posture`, its lowest part (a foot, a knee or the seat) on the ground, in
+/// the world's frame. Who is seated has the feet on it.
 Skeleton make_skeleton(const BodyShape& body, const Posture& posture, const Place& place);
 
 /// The same skeleton in another frame.

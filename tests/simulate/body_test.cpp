@@ -105,12 +105,31 @@ TEST(Skeleton, StandsOnTheGround) {
   Rng rng(4);
   const BodyShape body = draw_body(rng);
   for (const std::string& name : natural_posture_names()) {
+    if (name == "kneel" || name == "floor") continue;
     const Skeleton skeleton = make_skeleton(body, draw_posture(rng, body, name), {});
     const double lower =
         std::min(skeleton[Joint::kAnkleLeft].y(), skeleton[Joint::kAnkleRight].y());
 
     EXPECT_GT(lower, 0.5 * body.ankle_height_m) << name;
     EXPECT_LT(lower, 1.0 * body.ankle_height_m + 0.3 * body.foot_m) << name;
+  }
+}
+
+TEST(Skeleton, KneelsAndSitsOnTheGround) {
+  Rng rng(8);
+  const BodyShape body = draw_body(rng);
+  for (int i = 0; i < 30; ++i) {
+    const Skeleton kneeling = make_skeleton(body, draw_posture(rng, body, "kneel"), {});
+    const double lower = std::min(kneeling[Joint::kKneeLeft].y(), kneeling[Joint::kKneeRight].y());
+    EXPECT_GT(lower, 0.02);
+    EXPECT_LT(lower, 0.15);
+
+    const Skeleton sitting = make_skeleton(body, draw_posture(rng, body, "floor"), {});
+    EXPECT_GT(sitting[Joint::kPelvis].y(), 0.05);
+    EXPECT_LT(sitting[Joint::kPelvis].y(), 0.3);
+    for (const Joint joint : {Joint::kKneeLeft, Joint::kAnkleLeft, Joint::kWristLeft}) {
+      EXPECT_GT(sitting[joint].y(), 0.0);
+    }
   }
 }
 
