@@ -19,6 +19,7 @@ namespace limbcast::test {
 namespace {
 
 using lcm_io::Keep;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 /// How often a wait looks whether the program ended.
@@ -105,6 +106,19 @@ TEST(SimulatedLog, IsReadableBesideAnEarlierOneWhereItWasInterrupted) {
               HasSubstr(" of 100000 frames; " + log + ".unfinished holds what was made so far\n"));
   EXPECT_EQ(std::filesystem::file_size(log), earlier_bytes);
   EXPECT_EQ(lcm_io::LogReader(log + ".unfinished").next()->channel, "POINT_CLOUD");
+}
+
+TEST(SimulateReport, TellsOfTheDistancesSoFarWhereItIsInterrupted) {
+  const std::string folder = temporary_folder("report");
+  std::vector<std::string> words = command("stereo-depth", {"--report", "--report-frames", "1"});
+  words.erase(words.begin() + 3, words.begin() + 5);  // --frames
+  ChildProcess simulate(words, folder + "/output.txt");
+  while (simulate.output().find("1.5 m done") == std::string::npos)
+    ASSERT_TRUE(simulate.running()) << simulate.output();
+  simulate.signal(SIGTERM);
+  EXPECT_EQ(simulate.wait(), 1);
+  EXPECT_THAT(simulate.output(), HasSubstr("   1.5 m "));
+  EXPECT_THAT(simulate.output(), ContainsRegex("interrupted: [1-9] of 10 distances\n"));
 }
 
 TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {
