@@ -45,7 +45,8 @@ class LogReader {
   bool at_end_ = false;
 };
 
-/// Keeps a file that is about to be written from other processes that write it by LogWriter, too.
+/// Keeps a file that is about to be written from other processes that lock it too, as LogWriter
+/// does.
 class FileLock {
  public:
   /// Makes the file where there is none and leaves what is in it. Throws config::UsageError where

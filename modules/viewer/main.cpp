@@ -82,8 +82,9 @@ class Output {
       drawn[i] = draw_frame(frames[i], options_.orbit);
       if (!options_.png.empty()) write_pictures(options_.png, drawn[i]);
     });
-    for (const DrawnFrame& frame : drawn)
-      if (video_) video_->write(frame);
+    if (!video_) return;
+    if (!lock_) lock_.emplace(video_->unfinished());
+    for (const DrawnFrame& frame : drawn) video_->write(frame);
   }
 
   /// After the last frame.
@@ -98,6 +99,7 @@ class Output {
  private:
   Options options_;
   std::unique_ptr<SheetVideo> video_;
+  std::optional<lcm_io::FileLock> lock_;  ///< no other process writes the video
 };
 
 /// The numbers of the frames that the user wants.

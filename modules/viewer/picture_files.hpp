@@ -28,6 +28,8 @@ class SheetVideo {
  public:
   /// Throws InputError for another ending.
   SheetVideo(std::string path, double frames_per_s);
+  /// Where it stands until it is whole.
+  const std::string& unfinished() const { return unfinished_; }
   /// Throws std::runtime_error where the file cannot be made.
   void write(const DrawnFrame& frame);
   /// After the last frame: puts it in its place. Throws std::runtime_error where it does not hold

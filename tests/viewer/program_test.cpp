@@ -159,6 +159,17 @@ TEST(ViewerProgram, LeavesAnEarlierVideoWhereItIsInterrupted) {
   EXPECT_GT(num_video_frames(unfinished), 0.0) << "it is a video as far as it goes";
 }
 
+TEST(ViewerProgram, RefusesAVideoThatAnotherProcessWrites) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, true);
+  const lcm_io::FileLock other(folder / "out.avi.unfinished.avi");
+  const Outcome outcome = view({folder / "out.log", "--video", folder / "out.avi"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "limbcast-viewer: " + folder /
+                                                   "out.avi.unfinished.avi: is being written "
+                                                   "by another process; choose another file\n");
+}
+
 TEST(ViewerProgram, MissesAVideoForWhichNoFrameCame) {
   const TemporaryFolder folder;
   const std::string video = folder / "out.avi";
