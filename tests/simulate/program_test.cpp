@@ -134,6 +134,8 @@ TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {
             "limbcast-simulate: --motion is of the set sequence, not of general\n");
   EXPECT_EQ(error({"--output", folder, "--loop"}),
             "limbcast-simulate: --loop is of live frames; leave it out with --output or --log\n");
+  EXPECT_EQ(error({"--report", "--report-from-m", "5", "--report-to-m", "2"}),
+            "limbcast-simulate: --report-from-m must not be more than --report-to-m\n");
   EXPECT_EQ(error({"--log", "/none/a.log"}),
             "limbcast-simulate: /none/a.log: there is no folder /none; make it or choose another "
             "--log\n");
