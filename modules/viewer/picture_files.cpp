@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/camera/picture_file.hpp"
+#include "common/file_extension.hpp"
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 
@@ -37,7 +38,7 @@ void write_pictures(const std::string& folder, const DrawnFrame& frame) {
 
 SheetVideo::SheetVideo(std::string path, double frames_per_s)
     : path_(std::move(path)),
-      ending_(std::filesystem::path(path_).extension().string()),
+      ending_(extension_of(path_)),
       unfinished_(unfinished_file(path_, ending_)),
       frames_per_s_(frames_per_s),
       codec_(codec_of(path_, ending_)) {}

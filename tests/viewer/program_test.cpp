@@ -104,7 +104,7 @@ double num_video_frames(const std::string& path) {
 TEST(ViewerProgram, WritesAVideo) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", 2, true);
-  for (const std::string name : {"out.avi", "out.mp4"}) {
+  for (const std::string name : {"out.AVI", "out.mp4"}) {
     const Outcome outcome = view({folder / "out.log", "--video", folder / name});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(num_video_frames(folder / name), 2.0);
