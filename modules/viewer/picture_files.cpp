@@ -1,6 +1,7 @@
 #include "modules/viewer/picture_files.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
@@ -41,7 +42,12 @@ SheetVideo::SheetVideo(std::string path, double frames_per_s)
       ending_(extension_of(path_)),
       unfinished_(unfinished_file(path_, ending_)),
       frames_per_s_(frames_per_s),
-      codec_(codec_of(path_, ending_)) {}
+      codec_(codec_of(path_, ending_)) {
+  // Of a torn file FFmpeg, which OpenCV brings, would say words of its own on stderr.
+  constexpr const char* kQuiet = "-8";
+  constexpr int kUnlessToldOtherwise = 0;
+  setenv("OPENCV_FFMPEG_LOGLEVEL", kQuiet, kUnlessToldOtherwise);
+}
 
 void SheetVideo::write(const DrawnFrame& frame) {
   if (!writer_.isOpened() && !writer_.open(unfinished_, codec_, frames_per_s_, frame.sheet.size()))
