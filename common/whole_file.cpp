@@ -64,7 +64,9 @@ fs::path end_of_links(const fs::path& path) {
   return leads_nowhere ? path : end;
 }
 
-std::string unfinished_beside(const fs::path& path) { return path.string() + ".unfinished"; }
+std::string unfinished_beside(const fs::path& path, const std::string& ending = "") {
+  return path.string() + ".unfinished" + ending;
+}
 
 /// A file may be the user's in a folder that is not, and none takes the place of one that a
 /// container has mounted.
@@ -106,15 +108,15 @@ void write_whole_file(const std::string& path, const std::vector<std::uint8_t>& 
                    std::string_view{reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-std::string unfinished_file(const std::string& path) {
+std::string unfinished_file(const std::string& path, const std::string& ending) {
   if (is_device(path)) return path;
   const fs::path end = end_of_links(path);
   const fs::path folder = end.has_parent_path() ? end.parent_path() : ".";
-  return access(folder.c_str(), W_OK) == 0 ? unfinished_beside(end) : path;
+  return access(folder.c_str(), W_OK) == 0 ? unfinished_beside(end, ending) : path;
 }
 
-void finish_file(const std::string& path) {
-  const std::string unfinished = unfinished_file(path);
+void finish_file(const std::string& path, const std::string& ending) {
+  const std::string unfinished = unfinished_file(path, ending);
   if (unfinished == path) return;
   std::error_code error;
   fs::rename(unfinished, end_of_links(path), error);

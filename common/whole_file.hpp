@@ -16,8 +16,9 @@ void write_whole_file(const std::string& path, const std::vector<std::uint8_t>& 
 
 /// Where a file is to be written that grows for long, so that `path` stays as it was until
 /// finish_file: beside it, or `path` itself where that is a device or nothing may stand beside it.
-std::string unfinished_file(const std::string& path);
+/// Its name ends with `ending` (".avi") where that tells a library the format.
+std::string unfinished_file(const std::string& path, const std::string& ending = "");
 /// Puts it in its place. Throws std::runtime_error like write_whole_file.
-void finish_file(const std::string& path);
+void finish_file(const std::string& path, const std::string& ending = "");
 
 }  // namespace limbcast

@@ -148,6 +148,6 @@ step 5 "Accuracy against the truth in the recording"
 "$bin/limbcast-evaluate" "$run_log" --brief || true
 
 echo
-echo "Log:      $run_log  (lcm-logplayer $run_log)"
+echo "Log:      $run_log  (lcm-logplayer $(printf %q "$run_log"))"
 echo "Pictures: $output/pictures"
 echo "All other programs (replay, tracker, simulate ...): cmake --build --preset release"

@@ -1,10 +1,10 @@
 #include "common/camera/picture_file.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "common/file_extension.hpp"
 #include "common/input_error.hpp"
 #include "common/whole_file.hpp"
 
@@ -12,15 +12,15 @@ namespace limbcast {
 
 void check_picture_ending(const std::string& path) {
   // OpenCV knows more, and of some it says only when a picture is done that it takes no colours.
-  static const std::set<std::string> endings = {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG"};
-  if (!path.empty() && endings.count(std::filesystem::path(path).extension().string()) == 0)
+  static const std::set<std::string> endings = {".png", ".jpg", ".jpeg"};
+  if (!path.empty() && endings.count(extension_of(path)) == 0)
     throw InputError(path + ": pictures are written as .png or .jpg; choose such an ending");
 }
 
 void write_picture(const std::string& path, const cv::Mat& image, const std::vector<int>& params) {
   // Coded in memory: of a full disk libpng says words of its own on stderr.
   std::vector<std::uint8_t> bytes;
-  cv::imencode(std::filesystem::path(path).extension().string(), image, bytes, params);
+  cv::imencode(extension_of(path), image, bytes, params);
   write_whole_file(path, bytes);
 }
 

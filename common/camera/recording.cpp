@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <sstream>
 
 #include "common/config/byte_order_mark.hpp"
+#include "common/file_extension.hpp"
 #include "common/input_file.hpp"
 
 namespace limbcast {
@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 const std::string kTimestampsFile = "timestamps.csv";
 constexpr std::size_t kColumnsWithoutGravity = 2;
 constexpr std::size_t kColumnsWithGravity = 5;
+/// In the year 2100; nanoseconds, as ROS and many drivers count them, lie far beyond.
+constexpr std::int64_t kLatest_us = 4'102'444'800'000'000;
 constexpr const char* kBlanks = " \t\r";
 
 bool is_blank(const std::string& line) {
@@ -115,6 +117,8 @@ class TimestampsReader {
     const auto utime = number<std::int64_t>(fields[1]);
     if (!utime || *utime < 0)
       fail("utime is '" + fields[1] + "'", "must be whole microseconds >= 0");
+    if (*utime > kLatest_us)
+      fail("utime is '" + fields[1] + "'", "must be microseconds since 1970, not nanoseconds");
     time.utime = *utime;
     if (columns_ == kColumnsWithGravity) {
       time.down = read_down(fields);
@@ -135,16 +139,26 @@ class TimestampsReader {
 };
 
 bool is_picture(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(path);
   return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
 }
 
-/// A file or a link to one: a folder or a pipe may be called like a frame.
+bool is_link(const fs::path& path) {
+  std::error_code nothing_there;
+  return fs::is_symlink(path, nothing_there);
+}
+
+/// A file or a link to one: a folder or a pipe may be called like a frame. Throws InputError for a
+/// link that leads to nothing: a disk that is not there must not pass for a recording of fewer
+/// frames.
 bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
+  std::error_code unreachable;
+  const fs::file_status status = fs::status(path, unreachable);
+  if (unreachable && is_link(path))
+    throw InputError(path.string() +
+                     ": is a link to what is not there or may not be read; mount or "
+                     "copy it, or remove the link");
+  return fs::is_regular_file(status);
 }
 
 /// Frames of a folder by name, without times.
@@ -190,7 +204,7 @@ Recording with_times(const std::map<std::string, RecordedFrame>& files, const st
                      const RecordingParams& params) {
   Recording recording;
   const fs::path timestamps = fs::path(folder) / kTimestampsFile;
-  recording.has_timestamps = fs::exists(timestamps);
+  recording.has_timestamps = fs::exists(timestamps) || is_link(timestamps);
   if (recording.has_timestamps) {
     for (const FrameTime& time : read_timestamps(timestamps.string())) {
       const auto found = files.find(time.name);

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -39,6 +40,20 @@ LogLevel& highest_level() {
   return level;
 }
 
+/// What is quoted may hold line breaks, as a pipeline that was written in several lines does: one
+/// blank stands for each, and for the blanks around it; none at the end.
+std::string in_one_line(const std::string& text) {
+  constexpr const char* kBlanks = " \t\r\n";
+  std::string line = text;
+  for (std::size_t at = line.find_first_of("\r\n"); at != std::string::npos;
+       at = line.find_first_of("\r\n")) {
+    const std::size_t end = std::min(line.find_first_not_of(kBlanks, at), line.size());
+    const std::size_t begin = line.find_last_not_of(kBlanks, at) + 1;
+    line.replace(begin, end - begin, end == line.size() ? "" : " ");
+  }
+  return line;
+}
+
 }  // namespace
 
 void configure_log(const std::string& module, const std::string& level) {
@@ -53,11 +68,12 @@ void log(LogLevel level, const std::string& text) {
   if (level > highest_level()) return;
   // One call a line: stdio locks the stream, so lines of several threads do not mix.
   std::fprintf(stderr, "%s%s %s %s\n", priority_of(level), module_name().c_str(),
-               kLevelNames[static_cast<int>(level)], text.c_str());
+               kLevelNames[static_cast<int>(level)], in_one_line(text).c_str());
 }
 
 void log_failure(const std::string& program, const std::string& text) {
-  std::fprintf(stderr, "%s%s: %s\n", priority_of(LogLevel::kError), program.c_str(), text.c_str());
+  std::fprintf(stderr, "%s%s: %s\n", priority_of(LogLevel::kError), program.c_str(),
+               in_one_line(text).c_str());
 }
 
 }  // namespace limbcast::config

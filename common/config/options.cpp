@@ -20,6 +20,8 @@
 
 #include "common/config/byte_order_mark.hpp"
 #include "common/config/log.hpp"
+#include "common/config/option_name.hpp"
+#include "common/config/setting_lines.hpp"
 #include "common/config/version.hpp"
 #include "common/input_file.hpp"
 #include "common/joined.hpp"
@@ -39,11 +41,6 @@ constexpr std::array<std::string_view, 16> kModuleNames = {
 /// What stands on the command line without a name.
 constexpr const char* kArgument = "argument";
 
-std::string with_hyphens(std::string key) {
-  std::replace(key.begin(), key.end(), '_', '-');
-  return key;
-}
-
 /// "--Section.some_key=v" -> "--Section.some-key=v": the section keeps its underscores.
 std::string normalized_argument(const std::string& argument) {
   if (argument.rfind("--", 0) != 0) return argument;
@@ -54,15 +51,14 @@ std::string normalized_argument(const std::string& argument) {
          argument.substr(value_at);
 }
 
-/// "pose_fitter.method" -> "pose_fitter", "method".
-struct OptionName {
-  std::string section, key;
-};
-
-OptionName section_and_key(const std::string& name) {
-  const std::size_t dot = name.rfind('.');
-  if (dot == std::string::npos) return {"", name};
-  return {name.substr(0, dot), name.substr(dot + 1)};
+/// What is said of a key that a configuration file sets more than once: which one was meant?
+std::string why_not_twice(const OptionName& option, const std::string& text) {
+  std::vector<std::string> lines;
+  for (const int line : lines_that_set(option.section, option.key, text))
+    lines.push_back(std::to_string(line));
+  return "'" + option.key + "'" +
+         (option.section.empty() ? "" : " in section [" + option.section + "]") +
+         " is set in lines " + joined(lines) + "; leave it in one of them";
 }
 
 /// What is said of a line of a configuration file that sets nothing.
@@ -236,8 +232,8 @@ void Parser::read_config_file(const std::string& path) {
   if (!kind.empty()) throw UsageError(path + ": is " + kind + "; give a file to --config");
   std::ifstream in(path);
   if (!in) throw UsageError(path + ": cannot be read; give an existing file to --config");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  std::istringstream settings(without_byte_order_mark(text));
+  const std::string text = without_byte_order_mark({std::istreambuf_iterator<char>(in), {}});
+  std::istringstream settings(text);
   std::optional<po::parsed_options> parsed;
   try {
     parsed =
@@ -248,6 +244,7 @@ void Parser::read_config_file(const std::string& path) {
   } catch (const po::error& error) {
     throw UsageError(path + ": " + error.what());
   }
+  std::set<std::string> set_before;
   for (const po::option& option : parsed->options) {
     const auto [section, written_key] = section_and_key(option.string_key);
     const std::string key = with_hyphens(written_key);
@@ -265,6 +262,8 @@ void Parser::read_config_file(const std::string& path) {
     if (key == "config")
       throw UsageError(path + ": 'config' is for the command line; leave it out");
     const std::string full_key = section.empty() ? key : section + "." + key;
+    if (!set_before.insert(full_key).second)
+      throw UsageError(path + ": " + why_not_twice({section, key}, text));
     const auto overridden = [&](const std::string& name) {
       return std::find(on_command_line_.begin(), on_command_line_.end(), name) !=
              on_command_line_.end();

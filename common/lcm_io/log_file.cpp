@@ -84,12 +84,14 @@ std::optional<LogEvent> LogReader::next() {
     std::fseek(file, static_cast<long>(from), SEEK_SET);
   }
   torn_bytes_ = size_bytes_ - position_bytes_;
+  at_end_ = true;
   return std::nullopt;
 }
 
 void LogReader::seek(std::int64_t position_bytes) {
   std::fseek(file_->getFilePtr(), static_cast<long>(position_bytes), SEEK_SET);
   position_bytes_ = position_bytes;
+  at_end_ = false;
 }
 
 // A pipe that nobody reads fails at once, where it would be waited for without O_NONBLOCK.

@@ -30,6 +30,8 @@ class LogReader {
   /// Goes to where a message begins: what position_bytes() told before it was read.
   void seek(std::int64_t position_bytes);
 
+  /// Did next() find nothing more?
+  bool at_end() const { return at_end_; }
   /// After the last message: bytes that follow it but hold no whole message (a torn log), else 0.
   std::int64_t torn_bytes() const { return torn_bytes_; }
   /// Bytes between messages so far that hold none.
@@ -40,9 +42,11 @@ class LogReader {
  private:
   std::unique_ptr<lcm::LogFile> file_;
   std::int64_t size_bytes_ = 0, position_bytes_ = 0, torn_bytes_ = 0, damaged_bytes_ = 0;
+  bool at_end_ = false;
 };
 
-/// Keeps a file that is about to be written from other processes that write it by LogWriter, too.
+/// Keeps a file that is about to be written from other processes that lock it too, as LogWriter
+/// does.
 class FileLock {
  public:
   /// Makes the file where there is none and leaves what is in it. Throws config::UsageError where

@@ -68,9 +68,17 @@ void publish(FrameSource<Frame>& source, FrameSender<Frame>& sender, lcm_io::Mod
   problems.tell(source.problem());
 }
 
+/// Did all come that there is? A live source has no end: to be told to is how its recording is
+/// complete. Of some recordings only the attempt to read on tells that nothing is left.
+template <class Frame>
+bool is_complete(FrameSource<Frame>& source) {
+  return source.live() || source.ended() || (!source.next() && source.ended());
+}
+
 template <class Frame>
 void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std::string& path) {
   lcm_io::WholeLog log(path);
+  bool complete = false;
   try {
     while (!source.ended() && !lcm_io::stop_requested()) {
       std::optional<Frame> frame = source.next();
@@ -78,14 +86,14 @@ void write_log(FrameSource<Frame>& source, FrameSender<Frame>& sender, const std
       Outlet outlet(log.writer());
       sender.send(outlet, std::move(*frame));
     }
+    complete = is_complete(source);
   } catch (...) {
     if (log.begun()) config::log(config::LogLevel::kWarning, log.what_is_left("sent"));
     throw;
   }
   if (!source.problem().empty()) config::log(config::LogLevel::kError, source.problem());
   log.close();
-  // A live source has no end: to be told to is how its recording is complete.
-  if (source.ended() || source.live()) {
+  if (complete) {
     if (!log.begun()) throw std::runtime_error(path + ": was not written, as no frame came");
     return log.finish();
   }

@@ -1,9 +1,9 @@
 #include <cstdio>
-#include <filesystem>
 #include <opencv2/core/mat.hpp>
 
 #include "common/config/log.hpp"
 #include "common/config/output_file.hpp"
+#include "common/file_extension.hpp"
 #include "common/formatted.hpp"
 #include "modules/calibrate/board.hpp"
 #include "modules/calibrate/commands.hpp"
@@ -21,10 +21,10 @@ struct DrawingParams {
   double max_pixels = 1 << 30;
 };
 
-bool is_pdf(const std::string& path) { return std::filesystem::path(path).extension() == ".pdf"; }
+bool is_pdf(const std::string& path) { return extension_of(path) == ".pdf"; }
 
 void check_ending(const std::string& path) {
-  if (!is_pdf(path) && std::filesystem::path(path).extension() != ".png")
+  if (!is_pdf(path) && extension_of(path) != ".png")
     throw config::UsageError(path +
                              ": boards are drawn as .pdf or .png; give --output such an ending");
 }

@@ -1,7 +1,6 @@
 #include "modules/laser_scanner/cloud_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "common/file_extension.hpp"
 #include "common/input_error.hpp"
 #include "modules/laser_scanner/lzf.hpp"
 #include "modules/laser_scanner/point_table.hpp"
@@ -224,7 +224,7 @@ RawCloud read_kitti(const std::string& bytes, std::size_t max_points, const std:
                           {"z", NumberKind::kFloat, 4, 1},
                           {"intensity", NumberKind::kFloat, 4, 1}},
                          bytes.size() / 16};
-  if (extension_of(std::filesystem::path(path).stem().string()) == ".pcd") {
+  if (extension_of(std::filesystem::path(path).stem()) == ".pcd") {
     throw InputError(path +
                      ": is called like nuScenes' clouds, of five numbers a point where "
                      "KITTI's have four; convert it to PCD or KITTI .bin");
@@ -264,13 +264,6 @@ RawCloud read_cloud_file(const std::string& path, std::size_t max_points) {
   }
   if (extension_of(path) == ".bin") return read_kitti(bytes, max_points, path);
   fail(path, "is neither PCD, PLY nor KITTI .bin");
-}
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
 }
 
 }  // namespace limbcast::laser_scanner

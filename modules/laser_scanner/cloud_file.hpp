@@ -25,7 +25,4 @@ struct RawCloud {
 /// Throws InputError naming file and fault; more than `max_points` are one.
 RawCloud read_cloud_file(const std::string& path, std::size_t max_points);
 
-/// The end of a file's name in small letters, e.g. ".pcd": recorders write .PCD too.
-std::string extension_of(const std::string& path);
-
 }  // namespace limbcast::laser_scanner

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/file_extension.hpp"
 #include "common/formatted.hpp"
 #include "common/human_model/ground_truth_json.hpp"
 #include "common/input_file.hpp"
@@ -59,7 +60,7 @@ std::vector<std::string> cloud_extensions(const std::string& folder) {
   std::set<std::string> spelled_otherwise;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
-    const bool is_cloud = known.count(extension_of(entry.path().string())) > 0;
+    const bool is_cloud = known.count(extension_of(entry.path())) > 0;
     if (is_cloud && known.count(extension) == 0) spelled_otherwise.insert(extension);
   }
   extensions.insert(extensions.end(), spelled_otherwise.begin(), spelled_otherwise.end());

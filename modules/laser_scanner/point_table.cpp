@@ -29,6 +29,10 @@ std::optional<Place> find(const PointTable& table, const std::vector<std::string
   return std::nullopt;
 }
 
+bool is_in(const std::optional<Place>& place, const Column& column) {
+  return place && place->column == &column;
+}
+
 template <class T>
 T load(const std::uint8_t* bytes) {
   T value;
@@ -113,6 +117,10 @@ class ColorReader {
     if (packed_ && packed_->column->size != 4) packed_.reset();
   }
   bool has_color() const { return packed_ || (red_ && green_ && blue_); }
+  bool reads(const Column& column) const {
+    if (packed_) return is_in(packed_, column);
+    return has_color() && (is_in(red_, column) || is_in(green_, column) || is_in(blue_, column));
+  }
   Bgr read(const std::uint8_t* row) const {
     if (packed_) return {row[packed_->offset], row[packed_->offset + 1], row[packed_->offset + 2]};
     return {read_channel(*blue_, row), read_channel(*green_, row), read_channel(*red_, row)};
@@ -120,6 +128,28 @@ class ColorReader {
 
  private:
   std::optional<Place> packed_, red_, green_, blue_;
+};
+
+/// Where a row tells what is kept of a point. Intensities and rings as PCL, ROS drivers, PDAL and
+/// CloudCompare name them.
+struct PointPlaces {
+  explicit PointPlaces(const PointTable& table)
+      : x(find(table, {"x"})),
+        y(find(table, {"y"})),
+        z(find(table, {"z"})),
+        color(table),
+        intensity(find(
+            table, {"intensity", "Intensity", "scalar_Intensity", "reflectivity", "reflectance"})),
+        ring(find(table, {"ring", "scalar_ring", "laser_id"})) {}
+
+  bool use(const Column& column) const {
+    return is_in(x, column) || is_in(y, column) || is_in(z, column) || color.reads(column) ||
+           is_in(intensity, column) || is_in(ring, column);
+  }
+
+  std::optional<Place> x, y, z;
+  ColorReader color;
+  std::optional<Place> intensity, ring;
 };
 
 /// What a ring's column holds; nothing for a point without a ring, as clouds put together have
@@ -183,18 +213,12 @@ std::size_t PointTable::row_bytes() const {
 
 RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>& bytes,
                         const std::string& where) {
-  const auto x = find(table, {"x"});
-  const auto y = find(table, {"y"});
-  const auto z = find(table, {"z"});
+  const PointPlaces places(table);
+  const auto& [x, y, z, color, intensity, ring] = places;
   if (!x || !y || !z) throw InputError(where + ": has no x, y and z; give a cloud of points");
   if (bytes.size() / table.row_bytes() < table.num_points) {
     throw InputError(where + ": is torn, holds fewer points than its header says; copy it again");
   }
-  const ColorReader color(table);
-  // As PCL, ROS drivers, PDAL and CloudCompare name them.
-  const auto intensity =
-      find(table, {"intensity", "Intensity", "scalar_Intensity", "reflectivity", "reflectance"});
-  const auto ring = find(table, {"ring", "scalar_ring", "laser_id"});
   RawCloud cloud;
   bool all_have_rings = ring.has_value();
   for (std::size_t i = 0; i < table.num_points; ++i) {
@@ -218,6 +242,7 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
 
 std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::string& text,
                                        const std::string& where) {
+  const PointPlaces places(table);
   const std::vector<const Column*> columns = columns_of_numbers(table);
   std::vector<std::uint8_t> bytes;
   std::vector<double> numbers;
@@ -236,8 +261,9 @@ std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::strin
                        std::to_string(columns.size()) + "; write it again or correct it");
     }
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (!fits(*columns[i], numbers[i])) refuse_number(*columns[i], numbers[i], row, where);
-      store_number(*columns[i], numbers[i], bytes);
+      const bool stays = fits(*columns[i], numbers[i]);
+      if (!stays && places.use(*columns[i])) refuse_number(*columns[i], numbers[i], row, where);
+      store_number(*columns[i], stays ? numbers[i] : 0.0, bytes);
     }
   }
   return bytes;

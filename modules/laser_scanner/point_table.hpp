@@ -34,7 +34,8 @@ RawCloud points_of_rows(const PointTable& table, const std::vector<std::uint8_t>
 
 /// Rows in the machine's numbers from text, a line each; what follows them is not read. Throws
 /// InputError where a line holds other than as many numbers as a row has, but for one in which the
-/// text ends.
+/// text ends, and for a number that does not fit its column; where points have no use for that
+/// column, it is 0 instead.
 std::vector<std::uint8_t> rows_of_text(const PointTable& table, const std::string& text,
                                        const std::string& where);
 

@@ -13,7 +13,6 @@
 #include "common/formatted.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/log_file.hpp"
-#include "common/lcm_io/module.hpp"
 #include "common/lcm_io/whole_log.hpp"
 #include "common/units.hpp"
 #include "modules/log/message_types.hpp"
@@ -107,10 +106,9 @@ class Calibrations {
   std::map<std::pair<std::string, std::string>, LogEvent> last_;
 };
 
-void finish(lcm_io::WholeLog& out, const std::string& reason_if_empty) {
+void finish(lcm_io::WholeLog& out, bool interrupted, const std::string& reason_if_empty) {
   out.close();
-  if (lcm_io::stop_requested())
-    throw std::runtime_error("interrupted; " + out.what_is_left("copied"));
+  if (interrupted) throw std::runtime_error("interrupted; " + out.what_is_left("copied"));
   if (!out.begun()) throw config::UsageError(reason_if_empty);
   out.finish();
 }
@@ -196,7 +194,7 @@ CopySummary cut(const CutOptions& options) {
     ++summary.events_kept;
   }
   add_losses(reader, summary);
-  finish(out,
+  finish(out, !reader.at_end(),
          options.in + ": holds nothing of what shall be kept; limbcast-log info shows what it has");
   return summary;
 }
@@ -218,7 +216,9 @@ CopySummary merge(const MergeOptions& options) {
     head.event = next_of(*head.reader);
   }
   for (const Head& head : heads) add_losses(*head.reader, summary);
-  finish(out, options.in.front() + ": holds no whole event");
+  const bool interrupted = std::any_of(heads.begin(), heads.end(),
+                                       [](const Head& head) { return !head.reader->at_end(); });
+  finish(out, interrupted, options.in.front() + ": holds no whole event");
   return summary;
 }
 

@@ -23,7 +23,6 @@
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/depth_images_codec.hpp"
 #include "common/lcm_io/log_file.hpp"
-#include "common/lcm_io/module.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/stamp_codec.hpp"
 #include "common/pose_json/pose_lines.hpp"
@@ -116,7 +115,7 @@ class FrameWriter {
     stamps_.push_back(stamp);
   }
 
-  std::int64_t finish() {
+  std::int64_t finish(bool /*interrupted*/) {
     std::sort(stamps_.begin(), stamps_.end(),
               [](const Stamp& a, const Stamp& b) { return a.utime < b.utime; });
     // Without a frame, as where the program was told to end, the folder is no recording.
@@ -191,13 +190,13 @@ class PoseWriter {
     ++lines_;
   }
 
-  std::int64_t finish() {
+  std::int64_t finish(bool interrupted) {
     for (auto& [channel, file] : files_) {
       file.close();
       if (!file) throw cannot_write(channel);
-      if (!lcm_io::stop_requested()) finish_file(path_of(channel));
+      if (!interrupted) finish_file(path_of(channel));
     }
-    if (lines_ > 0 || lcm_io::stop_requested()) return lines_;
+    if (lines_ > 0 || interrupted) return lines_;
     if (!other_sensors_.empty()) throw no_such_sensor(options_, other_sensors_);
     throw UsageError(options_.in + ": holds no poses; limbcast-replay adds them");
   }
@@ -239,8 +238,9 @@ ExtractSummary extract_with(Writer& writer, const ExtractOptions& options) {
       ++summary.malformed;
     }
   }
-  summary.frames = writer.finish();
-  if (lcm_io::stop_requested())
+  const bool interrupted = !reader.at_end();
+  summary.frames = writer.finish(interrupted);
+  if (interrupted)
     throw std::runtime_error("interrupted; " + options.folder + " holds the " +
                              std::to_string(summary.frames) + " frames extracted so far");
   summary.torn_bytes = reader.torn_bytes();

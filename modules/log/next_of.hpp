@@ -7,9 +7,11 @@
 
 namespace limbcast::logs {
 
-/// The next event; none when the program is told to end, too.
+/// The next event; none when the program is told to end before the log's end, which
+/// reader.at_end() tells: after its last event there is nothing left to interrupt.
 inline std::optional<lcm_io::LogEvent> next_of(lcm_io::LogReader& reader) {
-  return lcm_io::stop_requested() ? std::nullopt : reader.next();
+  std::optional<lcm_io::LogEvent> event = reader.next();
+  return lcm_io::stop_requested() ? std::nullopt : event;
 }
 
 }  // namespace limbcast::logs

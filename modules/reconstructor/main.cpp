@@ -3,6 +3,7 @@
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/module.hpp"
+#include "modules/reconstructor/calibration_wait.hpp"
 #include "modules/reconstructor/drift_watch.hpp"
 #include "modules/reconstructor/stage.hpp"
 
@@ -20,6 +21,7 @@ void run(int argc, const char* const* argv) {
 
   lcm_io::Module module("reconstructor", parser.common());
   Stage stage(options);
+  CalibrationWait wait;
   DriftWatch drift_watch;
   std::string drift;
   module.subscribe_all<stereo_calibration_t>(
@@ -29,8 +31,9 @@ void run(int argc, const char* const* argv) {
       options.stereo_images_channel, [&](const stereo_images_t& message) {
         const auto reconstructor = stage.find(message.stamp.sensor);
         if (reconstructor == nullptr) {
-          module.report_problem("no calibration yet for stereo camera '" + message.stamp.sensor +
-                                "' on " + options.stereo_calibration_channel);
+          if (wait.is_too_long(message.stamp.sensor, CalibrationWait::Clock::now()))
+            module.report_problem("no calibration yet for stereo camera '" + message.stamp.sensor +
+                                  "' on " + options.stereo_calibration_channel);
           return;
         }
         point_cloud_t cloud = Stage::process(*reconstructor, message);

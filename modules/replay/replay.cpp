@@ -43,24 +43,24 @@ class Replay {
     lcm_io::WholeLog log(options_.out);
     OrderedWorkers<FrameResult> workers(options_.threads);
     const std::size_t max_pending = kPendingPerThread * static_cast<std::size_t>(options_.threads);
-    while (!lcm_io::stop_requested()) {
-      std::optional<LogEvent> event = reader.next();
-      if (!event) break;
+    std::optional<LogEvent> event;
+    while ((event = reader.next()) && !lcm_io::stop_requested()) {
       take_in(std::move(*event), workers);
       while (workers.pending() > max_pending || oldest_is_ready())
         write_oldest(workers, log.writer(), progress);
     }
     while (!waiting_.empty() && !lcm_io::stop_requested())
       write_oldest(workers, log.writer(), progress);
-    finish(log);
+    finish(log, reader.at_end() && waiting_.empty() && !left_a_frame_);
     summary_.torn_bytes = reader.torn_bytes();
     summary_.damaged_bytes = reader.damaged_bytes();
     return summary_;
   }
 
  private:
-  void finish(lcm_io::WholeLog& log) {
-    if (!lcm_io::stop_requested()) return log.finish();
+  /// Told to end after its last event it has nothing left to do.
+  void finish(lcm_io::WholeLog& log, bool is_whole) {
+    if (is_whole) return log.finish();
     log.close();
     summary_.left_by_interrupt = log.what_is_left("replayed");
   }
@@ -172,7 +172,10 @@ class Replay {
     const FrameResult result = workers.take();
     // Who stops the program waits for a step of a frame at most: what is left of it is not done,
     // and such a frame is not written.
-    if (lcm_io::stop_requested()) return;
+    if (lcm_io::stop_requested()) {
+      left_a_frame_ = true;
+      return;
+    }
     writer.write(oldest.event);
     for (const LogEvent& event : result.events) writer.write(event);
     write_tracked(result.events.empty() ? oldest.event : result.events.back(), writer);
@@ -213,6 +216,7 @@ class Replay {
   Contents contents_;
   ReplaySummary summary_;
   std::deque<Waiting> waiting_;
+  bool left_a_frame_ = false;  ///< in work when the program was told to end
   std::set<Frame> taken_;
 };
 

@@ -92,9 +92,13 @@ void publish(const SimulateOptions& options, const SimulatorParams& params,
 
 void report(const SimulateOptions& options, const SimulatorParams& params) {
   const std::string programs = std::filesystem::canonical("/proc/self/exe").parent_path().string();
-  print_report(make_report(params, options.report_params, programs,
-                           static_cast<std::uint64_t>(options.seed)),
-               options.report_params, std::cout);
+  const std::vector<ReportRow> rows = make_report(params, options.report_params, programs,
+                                                  static_cast<std::uint64_t>(options.seed));
+  const std::size_t num_distances = distances_m(options.report_params).size();
+  if (!rows.empty()) print_report(rows, options.report_params, std::cout);
+  if (rows.size() < num_distances)
+    throw std::runtime_error("interrupted: " + std::to_string(rows.size()) + " of " +
+                             std::to_string(num_distances) + " distances");
 }
 
 void run(int argc, const char* const* argv) {

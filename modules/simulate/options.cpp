@@ -135,6 +135,9 @@ SimulatorParams to_params(const SimulateOptions& options) {
   if (params.scenario.min_camera_height_m > params.scenario.max_camera_height_m) {
     throw config::UsageError("--min-camera-height-m must not be more than --max-camera-height-m");
   }
+  if (options.report_params.from_m > options.report_params.to_m) {
+    throw config::UsageError("--report-from-m must not be more than --report-to-m");
+  }
   params.scenario.set = sets.at(options.set);
   params.sensor = sensors.at(options.sensor);
   params.vary_noise = options.noise == "varied";

@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +17,7 @@
 
 #include "common/config/log.hpp"
 #include "common/lcm_io/log_file.hpp"
+#include "common/lcm_io/module.hpp"
 #include "modules/simulate/frame_messages.hpp"
 
 extern char** environ;
@@ -44,8 +47,16 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-/// Runs a program to its end, what it says goes to `said`.
-void run(const std::vector<std::string>& command, const std::string& said) {
+/// Waits for its end, which comes soon where this program is told to end.
+int status_at_end_of(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR)
+    if (lcm_io::stop_requested()) kill(process, SIGTERM);
+  return status;
+}
+
+/// Runs a program, what it says goes to `said`. Is it done? Not where this one was told to end.
+bool run(const std::vector<std::string>& command, const std::string& said) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
   for (const std::string& argument : command)
@@ -63,9 +74,9 @@ void run(const std::vector<std::string>& command, const std::string& said) {
   if (failed != 0)
     throw std::runtime_error(command[0] +
                              ": cannot be started; is it installed beside this program?");
-  int status = 0;
-  waitpid(process, &status, 0);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  const int status = status_at_end_of(process);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+  if (lcm_io::stop_requested()) return false;
   std::ifstream file(said);
   std::string line;
   std::string last;
@@ -97,7 +108,7 @@ ReportRow simulate_row(const SimulatorParams& params, const ReportParams& report
   row.sigma_z_m = sigma_z_m(params, distance_m);
   lcm_io::LogWriter log(log_path);
   Outlet outlet(log);
-  for (int i = 0; i < report.frames; ++i) {
+  for (int i = 0; i < report.frames && !lcm_io::stop_requested(); ++i) {
     const SimulatedFrame frame = simulate_frame(params, seed, i);
     for (const int points : frame.pixels)
       row.points_on_person += static_cast<double>(points) / report.frames;
@@ -105,6 +116,23 @@ ReportRow simulate_row(const SimulatorParams& params, const ReportParams& report
   }
   log.close();
   return row;
+}
+
+/// Runs the chain on the frames of a row. False where the program was told to end meanwhile.
+bool measure(const std::string& programs, const TemporaryFolder& folder, ReportRow& row) {
+  const std::string said = folder.file("said.txt"), figures = folder.file("figures.json");
+  const bool done =
+      run({programs + "/limbcast-replay", folder.file("in.log"), folder.file("out.log")}, said) &&
+      run({programs + "/limbcast-evaluate", folder.file("out.log"), "--json", figures}, said);
+  if (!done) return false;
+  nlohmann::json evaluation;
+  std::ifstream(figures) >> evaluation;
+  row.found_percent = figure(evaluation, "people_found_percent");
+  row.joints_percent = figure(evaluation, "joints_within_10cm_percent");
+  row.joint_error_cm = figure(evaluation, "joint_error_mean_cm");
+  row.right_percent = figure(evaluation, "pointing_right_percent");
+  row.pointing_deg = figure(evaluation, "pointing_median_deg");
+  return true;
 }
 
 std::string text_of(const std::optional<double>& value) {
@@ -155,25 +183,21 @@ double sigma_z_m(const SimulatorParams& params, double distance_m) {
   return 0.0;
 }
 
+std::vector<double> distances_m(const ReportParams& report) {
+  std::vector<double> distances;
+  for (double distance = report.from_m; distance < report.to_m + 1e-6; distance += report.step_m)
+    distances.push_back(distance);
+  return distances;
+}
+
 std::vector<ReportRow> make_report(const SimulatorParams& params, const ReportParams& report,
                                    const std::string& programs, std::uint64_t seed) {
   const TemporaryFolder folder;
-  const std::string said = folder.file("said.txt");
   std::vector<ReportRow> rows;
-  for (double distance = report.from_m; distance < report.to_m + 1e-6; distance += report.step_m) {
+  for (const double distance : distances_m(report)) {
     const SimulatorParams here = at_distance(params, distance);
     ReportRow row = simulate_row(here, report, distance, folder.file("in.log"), seed);
-    run({programs + "/limbcast-replay", folder.file("in.log"), folder.file("out.log")}, said);
-    run({programs + "/limbcast-evaluate", folder.file("out.log"), "--json",
-         folder.file("figures.json")},
-        said);
-    nlohmann::json evaluation;
-    std::ifstream(folder.file("figures.json")) >> evaluation;
-    row.found_percent = figure(evaluation, "people_found_percent");
-    row.joints_percent = figure(evaluation, "joints_within_10cm_percent");
-    row.joint_error_cm = figure(evaluation, "joint_error_mean_cm");
-    row.right_percent = figure(evaluation, "pointing_right_percent");
-    row.pointing_deg = figure(evaluation, "pointing_median_deg");
+    if (lcm_io::stop_requested() || !measure(programs, folder, row)) break;
     rows.push_back(row);
     char text[64];
     std::snprintf(text, sizeof(text), "%.1f m done", distance);

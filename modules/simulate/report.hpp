@@ -29,8 +29,12 @@ struct ReportRow {
 /// / (f B), from differentiating Z = f B / d.
 double sigma_z_m(const SimulatorParams& params, double distance_m);
 
+/// From the nearest to the farthest.
+std::vector<double> distances_m(const ReportParams& report);
+
 /// Simulates people who point at each distance, runs limbcast-replay and limbcast-evaluate of the
-/// folder `programs` on them and reads their figures. Throws std::runtime_error where these fail.
+/// folder `programs` on them and reads their figures: the rows done so far where the program is
+/// told to end. Throws std::runtime_error where these fail.
 std::vector<ReportRow> make_report(const SimulatorParams& params, const ReportParams& report,
                                    const std::string& programs, std::uint64_t seed);
 

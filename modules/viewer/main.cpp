@@ -82,18 +82,24 @@ class Output {
       drawn[i] = draw_frame(frames[i], options_.orbit);
       if (!options_.png.empty()) write_pictures(options_.png, drawn[i]);
     });
-    for (const DrawnFrame& frame : drawn)
-      if (video_) video_->write(frame);
+    if (!video_) return;
+    if (!lock_) lock_.emplace(video_->unfinished());
+    for (const DrawnFrame& frame : drawn) video_->write(frame);
   }
 
   /// After the last frame.
   void finish() {
     if (video_) video_->finish();
   }
+  /// Instead, where the program was told to end before: says what there is then.
+  std::string leave_unfinished() {
+    return video_ ? video_->leave_unfinished() : "what was drawn so far is kept";
+  }
 
  private:
   Options options_;
   std::unique_ptr<SheetVideo> video_;
+  std::optional<lcm_io::FileLock> lock_;  ///< no other process writes the video
 };
 
 /// The numbers of the frames that the user wants.
@@ -104,8 +110,12 @@ std::vector<int> wanted_frames(const Options& options, int count) {
   return numbers;
 }
 
-/// Returns how many were drawn: fewer where the program was told to end.
-std::size_t write_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
+std::string count_text(std::size_t drawn, std::size_t all) {
+  return std::to_string(drawn) + " of " + std::to_string(all) + " frames";
+}
+
+/// Says what was drawn where the program was told to end before the last frame; else nothing.
+std::string write_log(const Options& options, LogFrames& log, const std::vector<int>& numbers) {
   Output output(options);
   const std::size_t batch = std::max(1U, std::thread::hardware_concurrency());
   std::size_t i = 0;
@@ -115,8 +125,9 @@ std::size_t write_log(const Options& options, LogFrames& log, const std::vector<
       frames.push_back(log.frame(numbers[i]));
     output.write(frames);
   }
+  if (i < numbers.size()) return count_text(i, numbers.size()) + "; " + output.leave_unfinished();
   output.finish();
-  return i;
+  return "";
 }
 
 /// Until the user ends it.
@@ -159,21 +170,18 @@ void view_log(const Options& options) {
   check_content(options, log_frames);
   const std::vector<int> numbers = wanted_frames(options, log_frames.count());
   const bool windowed = to_window(options);
-  std::size_t num_drawn = 0;
+  std::string left_by_interrupt;
   if (windowed)
     show_log(options, log_frames, numbers);
   else
-    num_drawn = write_log(options, log_frames, numbers);
+    left_by_interrupt = write_log(options, log_frames, numbers);
   if (log_frames.num_malformed() > 1)
     log(LogLevel::kWarning, std::to_string(log_frames.num_malformed()) + " messages dropped");
   if (log_frames.torn_bytes() > 0)
     log(LogLevel::kWarning, lcm_io::torn_end(options.log, log_frames.torn_bytes()));
   if (windowed) return;
-  const std::string drawn =
-      std::to_string(num_drawn) + " of " + std::to_string(numbers.size()) + " frames";
-  if (num_drawn < numbers.size())
-    throw std::runtime_error("interrupted: " + drawn + "; what was drawn so far is kept");
-  log(LogLevel::kInfo, drawn + " drawn");
+  if (!left_by_interrupt.empty()) throw std::runtime_error("interrupted: " + left_by_interrupt);
+  log(LogLevel::kInfo, count_text(numbers.size(), numbers.size()) + " drawn");
 }
 
 /// Whose figures are shown: more than run on all hosts of a robot.

@@ -1,17 +1,19 @@
 #include "modules/viewer/picture_files.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "common/camera/picture_file.hpp"
+#include "common/file_extension.hpp"
 #include "common/input_error.hpp"
+#include "common/whole_file.hpp"
 
 namespace limbcast::viewer {
 namespace {
 
-int codec_of(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+int codec_of(const std::string& path, const std::string& ending) {
   if (ending == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
   if (ending == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
   throw InputError(path + ": no video format has this ending; use .avi or .mp4");
@@ -36,23 +38,44 @@ void write_pictures(const std::string& folder, const DrawnFrame& frame) {
 }
 
 SheetVideo::SheetVideo(std::string path, double frames_per_s)
-    : path_(std::move(path)), frames_per_s_(frames_per_s), codec_(codec_of(path_)) {}
+    : path_(std::move(path)),
+      ending_(extension_of(path_)),
+      unfinished_(unfinished_file(path_, ending_)),
+      frames_per_s_(frames_per_s),
+      codec_(codec_of(path_, ending_)) {
+  // Of a torn file FFmpeg, which OpenCV brings, would say words of its own on stderr.
+  constexpr const char* kQuiet = "-8";
+  constexpr int kUnlessToldOtherwise = 0;
+  setenv("OPENCV_FFMPEG_LOGLEVEL", kQuiet, kUnlessToldOtherwise);
+}
 
 void SheetVideo::write(const DrawnFrame& frame) {
-  if (!writer_.isOpened() && !writer_.open(path_, codec_, frames_per_s_, frame.sheet.size()))
+  if (!writer_.isOpened() && !writer_.open(unfinished_, codec_, frames_per_s_, frame.sheet.size()))
     throw std::runtime_error(path_ + ": cannot be written");
   writer_.write(frame.sheet);
   ++num_frames_;
 }
 
 void SheetVideo::finish() {
-  if (num_frames_ == 0) return;
+  // What stands beside it then is an earlier run's.
+  if (num_frames_ == 0) throw std::runtime_error(path_ + ": was not written, as no frame came");
+  close();
+  finish_file(path_, ending_);
+}
+
+std::string SheetVideo::leave_unfinished() {
+  if (num_frames_ == 0) return path_ + " was not written";
+  close();
+  return unfinished_ + " holds what was drawn so far";
+}
+
+void SheetVideo::close() {
   // The writer tells nobody that a disk is full. The count of frames comes last into a file, so it
   // is right only where all before it was written. Other backends than the writer's may wait
   // without end for the rest of a torn file.
   const int backend = static_cast<int>(writer_.get(cv::CAP_PROP_BACKEND));
   writer_.release();
-  const cv::VideoCapture written(path_, backend);
+  const cv::VideoCapture written(unfinished_, backend);
   if (written.get(cv::CAP_PROP_FRAME_COUNT) < num_frames_)
     throw std::runtime_error(path_ + ": cannot be written to its end; is the disk full?");
 }

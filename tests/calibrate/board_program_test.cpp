@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -42,6 +43,15 @@ TEST(CalibrateProgram, DrawsABoardOfTrueSizeThatIsFound) {
   for (int i = 0; i < 4; ++i)
     pixels_per_m = pixels_per_m << 8 | static_cast<unsigned char>(bytes[chunk + 4 + i]);
   EXPECT_NEAR(pixels_per_m * 0.02, square_px, 0.05);
+}
+
+TEST(CalibrateProgram, DrawsABoardWhoseNameEndsInCapitals) {
+  const TemporaryFolder folder;
+  for (const char* name : {"BOARD.PDF", "BOARD.PNG"}) {
+    const Outcome outcome = run_program("limbcast-calibrate", {"board", "--output", folder / name});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_GT(std::filesystem::file_size(folder / name), 1000U);
+  }
 }
 
 TEST(CalibrateProgram, RefusesBoardsThatNobodyCouldPrint) {

@@ -175,6 +175,27 @@ TEST_F(OptionsTest, SaysWhatALineOfAFileMustBe) {
               HasSubstr("robot.conf: is no text; give a configuration file to --config"));
 }
 
+TEST_F(OptionsTest, RefusesAFileThatSetsAKeyTwice) {
+  const std::string file = config_file(
+      "\xEF\xBB\xBF# threads = 1\n[pose_fitter]\r\nd-max-m = 0.5 # = 1\n[segmenter]\nd_max_m = "
+      "1\n\n"
+      "[pose_fitter]\n  d_max_m=0.4\n");
+  EXPECT_EQ(error_of({"in.log", "--config", file.c_str()}),
+            file +
+                ": 'd-max-m' in section [pose_fitter] is set in lines 3, 8; leave it in one of "
+                "them");
+  EXPECT_NE(error_of({"in.log", "--config", file.c_str(), "--d-max-m", "0.3"}), "")
+      << "whatever the command line says";
+  config_file("log-level = error\nlog-level = info\n");
+  EXPECT_EQ(error_of({"in.log", "--config", file.c_str()}),
+            file + ": 'log-level' is set in lines 1, 2; leave it in one of them");
+}
+
+TEST_F(OptionsTest, LeavesAKeyThatIsSetTwiceInAnothersSectionToThat) {
+  const std::string file = config_file("[tracker]\na = 1\na = 2\n");
+  EXPECT_EQ(error_of({"in.log", "--config", file.c_str()}), "");
+}
+
 TEST_F(OptionsTest, RefusesAFileThatNamesAnother) {
   const std::string file = config_file("config = other.conf\n");
   EXPECT_EQ(error_of({"in.log", "--config", file.c_str()}),

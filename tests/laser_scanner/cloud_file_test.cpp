@@ -122,6 +122,22 @@ TEST_F(CloudFile, OfTextHasNoNumberThatWouldBeWrapped) {
     EXPECT_EQ(read("a.pcd", with_ring(type, "65535")).rings, std::vector<std::uint16_t>{65535});
 }
 
+TEST_F(CloudFile, OfTextMayHoldWhatDoesNotFitWherePointsHaveNoUseForIt) {
+  const RawCloud of_pcd = read("a.pcd",
+                               "VERSION 0.7\nFIELDS x label y z rgb red ring\nSIZE 4 1 4 4 4 1 2\n"
+                               "TYPE F U F F U U U\nCOUNT 1 2 1 1 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+                               "POINTS 1\nDATA ascii\n1 -1 1e300 2 3 255 nan 7\n");
+  EXPECT_THAT(of_pcd.points, ElementsAre(Eigen::Vector3f(1, 2, 3)));
+  EXPECT_THAT(of_pcd.rings, ElementsAre(7));
+  ASSERT_EQ(of_pcd.colors.size(), 1U);
+  EXPECT_EQ(of_pcd.colors[0].b, 255) << "the packed colour is taken, not 'red'";
+  const RawCloud of_ply = read("a.ply",
+                               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                               "property float y\nproperty char class\nproperty float z\n"
+                               "end_header\n1 2 200 3\n");
+  EXPECT_THAT(of_ply.points, ElementsAre(Eigen::Vector3f(1, 2, 3)));
+}
+
 TEST_F(CloudFile, KeepsNoRingsWhereAPointHasNone) {
   const RawCloud cloud = read(
       "a.ply",

@@ -139,6 +139,14 @@ TEST_F(Cut, ThatIsInterruptedLeavesAnEarlierLog) {
   EXPECT_EQ(bytes_of(out_).size(), 3U);
 }
 
+TEST_F(Cut, ThatIsToldToEndAfterItsLastEventIsWhole) {
+  lcm_io::LogWriter log(in_);
+  log.write({kBegin, "LARGE", std::vector<std::uint8_t>(100'000)});
+  log.close();
+  EXPECT_EXIT(run_interrupted_by_last_output(out_, [this] { cut(options_); }),
+              ::testing::ExitedWithCode(0), "^$");
+}
+
 TEST_F(Cut, WorksFromTheCommandLine) {
   const auto run = test::run({test::program("limbcast-log"), "cut", in_, out_, "--from-frame", "2",
                               "--to-frame=3", "--keep-calibration=false"});
@@ -238,6 +246,17 @@ TEST_F(Merge, ThatIsInterruptedLeavesAnEarlierLogAndKeepsWhatItHasCopied) {
               "log: interrupted; " + out_ + ".unfinished holds what was copied so far\n");
   EXPECT_EQ(merged_text(), "earlier");
   EXPECT_EQ(events_in(out_ + ".unfinished").size(), 2U) << "the first ones were read already";
+}
+
+TEST_F(Merge, ThatIsToldToEndAfterItsLastEventIsWhole) {
+  write(a_, {{1, "a"}});
+  write(b_, {{2, "b"}});
+  EXPECT_EXIT(run_interrupted([this] {
+                merge({out_, {a_, b_}, false});
+              }),
+              ::testing::ExitedWithCode(0), "^$")
+      << "the first ones were read already";
+  EXPECT_EQ(merged_text(), "ab");
 }
 
 TEST_F(Merge, RefusesToOverwriteAnInput) {

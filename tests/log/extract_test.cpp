@@ -175,6 +175,19 @@ TEST_F(Extract, ThatIsInterruptedIsNoSuccess) {
   EXPECT_NO_THROW(extract(options(in, Extracted::kImages))) << "it may be done again";
 }
 
+TEST_F(Extract, ThatIsToldToEndAfterItsLastFrameIsWhole) {
+  BodyPoses crowd;
+  crowd.stamp.sensor = "front";
+  crowd.persons.resize(100);
+  lcm_io::LogWriter log(log_);
+  log.write(kBegin, "BODY_POSES", lcm_io::to_message(crowd));
+  log.close();
+  std::filesystem::create_directory(out_);
+  EXPECT_EXIT(run_interrupted_by_last_output(out_ + "/BODY_POSES.jsonl",
+                                             [this] { extract(options(log_, Extracted::kPoses)); }),
+              ::testing::ExitedWithCode(0), "^$");
+}
+
 TEST_F(Extract, RefusesAFolderThatHoldsARecording) {
   const ExtractOptions images =
       options(test::repository_file("logs/multi.log"), Extracted::kImages);

@@ -1,11 +1,18 @@
 #pragma once
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limbcast/module_status_t.hpp>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "common/config/options.hpp"
@@ -79,11 +86,34 @@ inline std::vector<lcm_io::LogEvent> events_in(const std::string& path) {
 
 /// Ends with the program's exit code, but leaves the tests' folders.
 template <class Command>
+[[noreturn]] void run_and_exit(const Command& command) {
+  std::_Exit(config::run_program("log", command));
+}
+
+template <class Command>
 [[noreturn]] void run_interrupted(const Command& command) {
-  std::_Exit(config::run_program("log", [&command] {
+  run_and_exit([&command] {
     lcm_io::request_stop();
     command();
-  }));
+  });
+}
+
+/// Runs a command that writes more than a pipe holds (4 kB) to `pipe`, which is made, at once: it
+/// is told to end when the first of it came out, and before the rest is taken.
+template <class Command>
+[[noreturn]] void run_interrupted_by_last_output(const std::string& pipe, const Command& command) {
+  const bool made = mkfifo(pipe.c_str(), S_IRUSR | S_IWUSR) == 0;
+  const int file = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  if (!made || file < 0 || fcntl(file, F_SETPIPE_SZ, 4096) < 0) std::abort();
+  std::thread([file] {
+    pollfd output{file, POLLIN, 0};
+    poll(&output, 1, -1);
+    lcm_io::request_stop();
+    std::array<char, 4096> bytes{};
+    do poll(&output, 1, -1);
+    while (read(file, bytes.data(), bytes.size()) != 0);
+  }).detach();
+  run_and_exit(command);
 }
 
 inline bool same(const lcm_io::LogEvent& a, const lcm_io::LogEvent& b) {

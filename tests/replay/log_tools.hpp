@@ -40,6 +40,13 @@ inline std::vector<lcm_io::LogEvent> first_frames(const std::string& log, int n)
   return kept;
 }
 
+/// Without what comes after the last one on `channel`.
+inline std::vector<lcm_io::LogEvent> up_to_last(std::vector<lcm_io::LogEvent> events,
+                                                const std::string& channel) {
+  while (!events.empty() && events.back().channel != channel) events.pop_back();
+  return events;
+}
+
 inline bool same(const lcm_io::LogEvent& a, const lcm_io::LogEvent& b) {
   return a.utime == b.utime && a.channel == b.channel && a.data == b.data;
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limbcast/body_poses_t.hpp>
@@ -225,7 +227,24 @@ TEST_F(ReplayProgram, EndsWithTwoForWrongUsage) {
       "no-such-key");
 }
 
+TEST_F(ReplayProgram, IsWholeWhereItIsToldToEndAfterItsLastFrame) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // others of these tests have started threads
+  ReplayOptions options;
+  options.in = write("in.log", up_to_last(two_frames_, "STEREO_IMAGES"));
+  options.out = path("out.log");
+  const auto replay_and_exit = [&options] {
+    const ReplaySummary summary =
+        limbcast::replay::replay(options, ChainOptions{}, [](int done, int total) {
+          if (done == total) lcm_io::request_stop();
+        });
+    std::fputs(summary.left_by_interrupt.c_str(), stderr);
+    std::_Exit(static_cast<int>(on_channel(events_of(options.out), "BODY_POSES").size()));
+  };
+  EXPECT_EXIT(replay_and_exit(), ::testing::ExitedWithCode(2), "^$");
+}
+
 // Last: the stop that it asks for holds for the rest of this program.
+
 TEST_F(ReplayProgram, KeepsWhatWasWrittenWhenItIsInterrupted) {
   ReplayOptions options;
   options.in = test::repository_file("logs/multi.log");

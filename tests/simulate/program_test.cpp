@@ -19,6 +19,7 @@ namespace limbcast::test {
 namespace {
 
 using lcm_io::Keep;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 /// How often a wait looks whether the program ended.
@@ -107,6 +108,19 @@ TEST(SimulatedLog, IsReadableBesideAnEarlierOneWhereItWasInterrupted) {
   EXPECT_EQ(lcm_io::LogReader(log + ".unfinished").next()->channel, "POINT_CLOUD");
 }
 
+TEST(SimulateReport, TellsOfTheDistancesSoFarWhereItIsInterrupted) {
+  const std::string folder = temporary_folder("report");
+  std::vector<std::string> words = command("stereo-depth", {"--report", "--report-frames", "1"});
+  words.erase(words.begin() + 3, words.begin() + 5);  // --frames
+  ChildProcess simulate(words, folder + "/output.txt");
+  while (simulate.output().find("1.5 m done") == std::string::npos)
+    ASSERT_TRUE(simulate.running()) << simulate.output();
+  simulate.signal(SIGTERM);
+  EXPECT_EQ(simulate.wait(), 1);
+  EXPECT_THAT(simulate.output(), HasSubstr("   1.5 m "));
+  EXPECT_THAT(simulate.output(), ContainsRegex("interrupted: [1-9] of 10 distances\n"));
+}
+
 TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {
   const auto error = [](const std::vector<std::string>& options) {
     const RunResult result = run(command("depth", options));
@@ -120,6 +134,8 @@ TEST(SimulateUsage, RefusesOptionsOfAnotherSetOrOutput) {
             "limbcast-simulate: --motion is of the set sequence, not of general\n");
   EXPECT_EQ(error({"--output", folder, "--loop"}),
             "limbcast-simulate: --loop is of live frames; leave it out with --output or --log\n");
+  EXPECT_EQ(error({"--report", "--report-from-m", "5", "--report-to-m", "2"}),
+            "limbcast-simulate: --report-from-m must not be more than --report-to-m\n");
   EXPECT_EQ(error({"--log", "/none/a.log"}),
             "limbcast-simulate: /none/a.log: there is no folder /none; make it or choose another "
             "--log\n");

@@ -4,7 +4,10 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 #include <thread>
 
 #include "common/lcm_io/body_poses_codec.hpp"
@@ -89,25 +92,40 @@ TEST(ViewerProgram, DrawsPosesOfALogWithoutClouds) {
   EXPECT_EQ(num_files(folder / "pictures"), 8U);
 }
 
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double num_video_frames(const std::string& path) {
+  return cv::VideoCapture(path).get(cv::CAP_PROP_FRAME_COUNT);
+}
+
 TEST(ViewerProgram, WritesAVideo) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", 2, true);
-  const Outcome outcome = view({folder / "out.log", "--video", folder / "out.avi"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_GT(std::filesystem::file_size(folder / "out.avi"), 1000U);
+  for (const std::string name : {"out.AVI", "out.mp4"}) {
+    const Outcome outcome = view({folder / "out.log", "--video", folder / name});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(num_video_frames(folder / name), 2.0);
+  }
+  EXPECT_EQ(num_files(folder.path()), 3U) << "nothing else is left";
 }
 
 TEST(ViewerProgram, FailsWhereTheDiskTakesOnlyAPartOfTheVideo) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", 2, true);
   for (const std::string name : {"out.avi", "out.mp4"}) {
+    folder.write(name, "earlier");
     // Files of at most 8 blocks (4 kB), less than a sheet; the signal is ignored, so that writing
     // fails as on a full disk.
     const auto run =
         test::run({"/bin/sh", "-c", R"(trap '' XFSZ; ulimit -f 8; exec "$@")", "sh",
                    test::program("limbcast-viewer"), folder / "out.log", "--video", folder / name});
     EXPECT_EQ(run.exit_code, 1) << run.output;
-    EXPECT_THAT(run.output, HasSubstr(name + ": cannot be written"));
+    EXPECT_EQ(run.output, "limbcast-viewer: " + folder / name +
+                              ": cannot be written to its end; is the disk full?\n");
+    EXPECT_EQ(bytes_of(folder / name), "earlier");
   }
 }
 
@@ -122,6 +140,48 @@ TEST(ViewerProgram, FailsWhereItIsInterrupted) {
   viewer.signal(SIGINT);
   EXPECT_EQ(viewer.wait(), 1);
   EXPECT_THAT(viewer.output(), HasSubstr("limbcast-viewer: interrupted: "));
+}
+
+TEST(ViewerProgram, LeavesAnEarlierVideoWhereItIsInterrupted) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 2000, true);
+  folder.write("out.avi", "earlier");
+  const std::string unfinished = folder / "out.avi.unfinished.avi";
+  test::ChildProcess viewer(
+      {test::program("limbcast-viewer"), folder / "out.log", "--video", folder / "out.avi"},
+      folder / "said");
+  while (viewer.running() && !std::filesystem::exists(unfinished))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  viewer.signal(SIGINT);
+  EXPECT_EQ(viewer.wait(), 1);
+  EXPECT_THAT(viewer.output(),
+              HasSubstr(" of 2000 frames; " + unfinished + " holds what was drawn so far\n"));
+  EXPECT_EQ(bytes_of(folder / "out.avi"), "earlier");
+  EXPECT_GT(num_video_frames(unfinished), 0.0) << "it is a video as far as it goes";
+}
+
+TEST(ViewerProgram, RefusesAVideoThatAnotherProcessWrites) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 1, true);
+  const lcm_io::FileLock other(folder / "out.avi.unfinished.avi");
+  const Outcome outcome = view({folder / "out.log", "--video", folder / "out.avi"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "limbcast-viewer: " + folder /
+                                                   "out.avi.unfinished.avi: is being written "
+                                                   "by another process; choose another file\n");
+}
+
+TEST(ViewerProgram, MissesAVideoForWhichNoFrameCame) {
+  const TemporaryFolder folder;
+  const std::string video = folder / "out.avi";
+  test::ChildProcess viewer(
+      {test::program("limbcast-viewer"), "--lcm-url", "memq://", "--video", video},
+      folder / "said");
+  while (viewer.running() && viewer.output().empty())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  viewer.signal(SIGINT);
+  EXPECT_EQ(viewer.wait(), 1);
+  EXPECT_THAT(viewer.output(), HasSubstr(video + ": was not written, as no frame came\n"));
 }
 
 TEST(ViewerProgram, RefusesALogThatHasPosesOnOtherChannelsOnly) {

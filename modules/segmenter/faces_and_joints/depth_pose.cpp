@@ -29,6 +29,16 @@ constexpr int kPersonFigure = kKinds * kJointCount, kFigures = kPersonFigure + 1
 /// What a unit of the depths it tells is [m].
 constexpr float kDepthUnit_m = 0.25F;
 
+const TfliteFile& file_of_cameras() {
+  static const TfliteFile file = read_tflite(limbcast_depth_pose);
+  return file;
+}
+
+const TfliteFile& file_of_scans() {
+  static const TfliteFile file = read_tflite(limbcast_scan_depth_pose);
+  return file;
+}
+
 /// What all cells tell, row by row.
 using Figures = std::vector<float>;
 
@@ -156,15 +166,17 @@ std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& v
 
 DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
   if (!params.enabled) return;
-  static const TfliteFile of_cameras = read_tflite(limbcast_depth_pose);
-  static const TfliteFile of_scans = read_tflite(limbcast_scan_depth_pose);
-  const auto pool = [library = params.library](const TfliteFile& file) {
-    return std::make_unique<InstancePool<TfliteNetwork>>([library, &file] {
-      return std::make_unique<TfliteNetwork>(file, std::vector<std::string>{"joints"}, library);
-    });
+  // A robot's sensors are mostly of one kind: the other's network is never loaded.
+  const auto pool = [library = params.library](const TfliteFile& (*file)()) {
+    return std::make_unique<InstancePool<TfliteNetwork>>(
+        [library, file] {
+          return std::make_unique<TfliteNetwork>(file(), std::vector<std::string>{"joints"},
+                                                 library);
+        },
+        FirstInstance::kWhenAskedFor);
   };
-  of_cameras_ = pool(of_cameras);
-  of_scans_ = pool(of_scans);
+  of_cameras_ = pool(file_of_cameras);
+  of_scans_ = pool(file_of_scans);
 }
 
 std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {

@@ -8,14 +8,20 @@
 
 namespace limbcast::segmenter {
 
+enum class FirstInstance { kAtOnce, kWhenAskedFor };
+
 /// Objects that work for one thread at a time: as many as threads ask at the same time.
 template <class T>
 class InstancePool {
  public:
   using Make = std::function<std::unique_ptr<T>()>;
 
-  /// Makes the first at once: what `make` throws shows at the start of a program, not in its work.
-  explicit InstancePool(Make make) : make_(std::move(make)) { idle_.push_back(make_()); }
+  /// Makes the first at once, so that what `make` throws shows at the start of a program and not in
+  /// its work; or, where it may never be asked for, when it is.
+  explicit InstancePool(Make make, FirstInstance first = FirstInstance::kAtOnce)
+      : make_(std::move(make)) {
+    if (first == FirstInstance::kAtOnce) idle_.push_back(make_());
+  }
 
   /// What `work` says of an object that is idle, or made for it. One that throws is not used again.
   template <class Work>

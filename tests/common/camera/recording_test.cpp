@@ -116,6 +116,30 @@ TEST_F(RecordedFolder, LeavesFoldersAloneThatAreCalledLikeFrames) {
   EXPECT_EQ(clouds.frames[0].first_path, folder_ / "d.pcd");
 }
 
+TEST_F(RecordedFolder, RefusesLinksToWhatIsNotThere) {
+  add_pair("a");
+  EXPECT_EQ(find().frames.size(), 1U);
+  for (const char* name : {"b_left.jpg", "a_gt.json"}) {
+    const std::string link = folder_ / name;
+    std::filesystem::create_symlink("/nowhere/b.jpg", link);
+    EXPECT_EQ(error(), link +
+                           ": is a link to what is not there or may not be read; mount or copy "
+                           "it, or remove the link");
+    std::filesystem::remove(link);
+  }
+  std::filesystem::create_symlink(folder_ / "a_left.jpg", folder_ / "b_left.jpg");
+  std::filesystem::create_symlink("a_right.jpg", folder_ / "b_right.jpg");
+  EXPECT_EQ(find().frames.size(), 2U);
+  std::filesystem::create_symlink("/nowhere/t.csv", folder_ / "timestamps.csv");
+  EXPECT_THAT(error(), HasSubstr("timestamps.csv: cannot be read"));
+}
+
+TEST_F(RecordedFolder, RefusesNanosecondsForMicroseconds) {
+  EXPECT_THAT(error_of_timestamps("name,utime\na,1767540000000000000\n"),
+              HasSubstr("timestamps.csv:2: utime is '1767540000000000000'; must be microseconds "
+                        "since 1970, not nanoseconds"));
+}
+
 TEST_F(RecordedFolder, RefusesAFolderForTimestamps) {
   add_pair("a");
   std::filesystem::create_directory(folder_ / "timestamps.csv");

@@ -37,6 +37,25 @@ class InterruptedSource : public PairSource {
   int given_ = 0;
 };
 
+/// A video: that its only frame was the last is found when there is no next one. Tells the program
+/// to end with that frame.
+class InterruptedVideo : public PairSource {
+ public:
+  std::optional<FramePair> next() override {
+    lcm_io::request_stop();
+    ended_ = given_;
+    if (ended_) return std::nullopt;
+    given_ = true;
+    return FramePair{};
+  }
+  bool ended() const override { return ended_; }
+  bool live() const override { return false; }
+  std::string description() const override { return "a video"; }
+
+ private:
+  bool given_ = false, ended_ = false;
+};
+
 /// A folder whose second pair is bad.
 class TornSource : public PairSource {
  public:
@@ -94,6 +113,13 @@ TEST(WrittenLog, OfARecordingIsNoSuccessWhereItWasInterrupted) {
   EXPECT_EXIT(write_and_exit(InterruptedSource(false), log), ExitedWithCode(1),
               HasSubstr("camera: interrupted: 3 of 10 frames; " + log +
                         ".unfinished holds what was sent so far\n"));
+}
+
+TEST(WrittenLog, OfARecordingIsWholeWhereTheProgramIsToldToEndAfterItsLastFrame) {
+  const test::TemporaryFolder folder;
+  const std::string log = folder / "out.log";
+  EXPECT_EXIT(write_and_exit(InterruptedVideo(), log), ExitedWithCode(0), "");
+  EXPECT_EQ(first_channel_of(log), "FRAMES");
 }
 
 TEST(WrittenLog, OfACameraIsCompleteWhenItIsToldToEnd) {

@@ -12,6 +12,15 @@ TEST(InstancePool, ThrowsAtOnceWhatMakingThrows) {
   EXPECT_THROW(InstancePool<int>{make}, std::runtime_error);
 }
 
+TEST(InstancePool, MakesTheFirstWhenItIsAskedForWhereItIsToldSo) {
+  int num_made = 0;
+  InstancePool<int> pool([&] { return std::make_unique<int>(num_made++); },
+                         FirstInstance::kWhenAskedFor);
+  EXPECT_EQ(num_made, 0);
+  EXPECT_EQ(pool.with([](int number) { return number; }), 0);
+  EXPECT_EQ(pool.with([](int number) { return number; }), 0);
+}
+
 TEST(InstancePool, MakesOneMoreOnlyWhereAllAreAtWork) {
   int num_made = 0;
   InstancePool<int> pool([&] { return std::make_unique<int>(num_made++); });
