@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 """Trains limbcast's own networks of poses and writes them as files of TensorFlow Lite.
 
-    train_depth_pose.py OUT.tflite SCANS_OUT.tflite TRAINING.bin... --rings SCANS.bin... --rasters SCANS.bin...
-                        [--check CHECK.bin...]
+    train_depth_pose.py OUT.tflite SCANS_OUT.tflite BENT_OUT.tflite TRAINING.bin... --rings SCANS.bin...
+                        --rasters SCANS.bin... --bent BENT.bin... [--check CHECK.bin...]
 
-OUT, for cameras, is trained on TRAINING; from there SCANS_OUT on scans of rotating and of tilting scanners. Files are
+OUT, for cameras, is trained on TRAINING; from there BENT_OUT on BENT and as many pictures of TRAINING, and SCANS_OUT on
+scans of rotating and of tilting scanners. Files are
 those of limbcast-write-depth-pictures. After each few epochs it prints what the network sees of the files to check by.
 train_depth_pose.sh makes the pictures and runs it. Needs Debian's python3-torch and python3-flatbuffers. On processors
 that compute with brain floats of 16 bits layers are computed in these.
 """
 import argparse
+import copy
 import os
 import sys
 import time
@@ -40,6 +42,8 @@ MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
 
 CYCLES = ((24, 2e-3), (8, 1e-3))  # epochs, and the highest rate, which falls to nothing in each
 SCAN_CYCLES = ((12, 8e-4), (5, 5e-4))
+BENT_CYCLES = ((6, 4e-4),)
+USUAL_FOR_EACH_BENT = 4  # pictures of usual postures and of things among those of who bends
 MOST_THINGS = 1200  # of a file of scans
 BATCH = 32
 
@@ -416,6 +420,11 @@ def train(network, records, checks, cycles, has_rings=None):
     return network.eval()
 
 
+def train_on_bent(network, bent, usual, checks):
+    chosen = np.random.default_rng(2).permutation(len(usual))[:USUAL_FOR_EACH_BENT * len(bent)]
+    return train(network, np.concatenate([bent, usual[np.sort(chosen)]]), checks, BENT_CYCLES)
+
+
 def train_on_scans(network, rings, rasters, checks):
     of_rings, of_rasters = (read_records(paths, MOST_THINGS) for paths in (rings, rasters))
     has_rings = np.repeat([True, False], [len(of_rings), len(of_rasters)])
@@ -482,15 +491,20 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out")
     parser.add_argument("scans_out")
+    parser.add_argument("bent_out")
     parser.add_argument("training", nargs="+")
     parser.add_argument("--rings", nargs="+", required=True)
     parser.add_argument("--rasters", nargs="+", required=True)
+    parser.add_argument("--bent", nargs="+", required=True)
     parser.add_argument("--check", nargs="*", default=[])
     arguments = parser.parse_args()
     torch.manual_seed(1)
     torch.set_num_threads(os.cpu_count())
     network = DepthPose().to(memory_format=torch.channels_last)
-    write(train(network, read_records(arguments.training), arguments.check, CYCLES), arguments.out)
+    usual = read_records(arguments.training)
+    write(train(network, usual, arguments.check, CYCLES), arguments.out)
+    bent = train_on_bent(copy.deepcopy(network), read_records(arguments.bent), usual, arguments.check)
+    write(bent, arguments.bent_out)
     write(train_on_scans(network, arguments.rings, arguments.rasters, arguments.check), arguments.scans_out)
 
 

@@ -1,10 +1,10 @@
 #!/bin/bash
 # Trains limbcast's own networks of poses from nothing: simulates people before each sensor, and rooms and streets without
-# any, draws their depths and writes depth_pose.tflite and scan_depth_pose.tflite of modules/segmenter/models. Build again
-# afterwards, and fit the confidences of the refined fitter anew (tests/pose_fitter/train.sh). Needs Debian's python3-torch
-# and python3-flatbuffers.
+# any, draws their depths and writes depth_pose.tflite, scan_depth_pose.tflite and bent_depth_pose.tflite of
+# modules/segmenter/models. Build again afterwards, and fit the confidences of the refined fitter anew
+# (tests/pose_fitter/train.sh). Needs Debian's python3-torch and python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   23590 simulated frames, 16 GB, an hour and a half on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   24780 simulated frames, 16 GB, an hour and a half on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
 # Run it after segments or range images changed. Training takes two hours on two cores without brain
@@ -69,6 +69,16 @@ simulate n_wide_nohuman nohuman laser 300 20048 "${wide[@]}"
 simulate n_street_nohuman nohuman laser 400 20049 "${few[@]}" --street-share 1 --max-camera-height-m 2.1
 
 cameras_and_scans=("${folders[@]}")
+# People who bow, kneel and sit on the ground, before cameras.
+folders=()
+simulate b_stereo general stereo 300 20111 --posture bow "${children[@]}" "${far[@]}"
+simulate b_depth general depth 300 20112 --posture bow "${gray[@]}" "${children[@]}" "${far[@]}"
+simulate b_multi multi stereo 100 20116 --posture bow --child-share 0.15
+simulate b_depth_kneel general depth 150 20121 --posture kneel "${gray[@]}" --child-share 0.25 "${far[@]}"
+simulate b_stereo_kneel general stereo 120 20125 --posture kneel --child-share 0.25 "${near[@]}"
+simulate b_depth_floor general depth 150 20131 --posture floor "${gray[@]}" --child-share 0.25 "${far[@]}"
+simulate b_stereo_floor general stereo 120 20135 --posture floor --child-share 0.25 "${near[@]}"
+bent=("${folders[@]}")
 # Scans of rotating scanners: streets, where people walk and wear coats, farther away than rooms are wide.
 folders=()
 street=("${few[@]}" "${streets[@]}") narrow=("${few[@]}" "${streets[@]}" --max-elevation-deg 11.25)
@@ -119,7 +129,7 @@ pictures() {
   "$bin/limbcast-write-depth-pictures" "$out.part" "$1"
   mv "$out.part" "$out"
 }
-for folder in "${cameras_and_scans[@]}" "${rings[@]}" "${rasters[@]}"; do pictures "$folder"; done
+for folder in "${cameras_and_scans[@]}" "${bent[@]}" "${rings[@]}" "${rasters[@]}"; do pictures "$folder"; done
 checks=()
 for set in laser_dev stereo_dev/pointing stereo_dev/general stereo_dev/multi stereo_dev/nohuman rgbd_pointing; do
   pictures "$data/$set"
@@ -127,4 +137,5 @@ for set in laser_dev stereo_dev/pointing stereo_dev/general stereo_dev/multi ste
 done
 models=modules/segmenter/models
 /usr/bin/python3 tests/segmenter/train_depth_pose.py "$models/depth_pose.tflite" "$models/scan_depth_pose.tflite" \
-  "${cameras_and_scans[@]/%/.bin}" --rings "${rings[@]/%/.bin}" --rasters "${rasters[@]/%/.bin}" --check "${checks[@]}"
+  "$models/bent_depth_pose.tflite" "${cameras_and_scans[@]/%/.bin}" --rings "${rings[@]/%/.bin}" --rasters "${rasters[@]/%/.bin}" \
+  --bent "${bent[@]/%/.bin}" --check "${checks[@]}"

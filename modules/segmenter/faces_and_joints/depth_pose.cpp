@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "common/human_model/joints.hpp"
+#include "common/units.hpp"
 #include "modules/segmenter/networks/network.hpp"
 #include "modules/segmenter/range_image.hpp"
 
 // The files in ../networks/network_files.S.
 extern "C" const char limbcast_depth_pose[];
 extern "C" const char limbcast_scan_depth_pose[];
+extern "C" const char limbcast_bent_depth_pose[];
 
 namespace limbcast::segmenter {
 namespace {
@@ -36,6 +38,11 @@ const TfliteFile& file_of_cameras() {
 
 const TfliteFile& file_of_scans() {
   static const TfliteFile file = read_tflite(limbcast_scan_depth_pose);
+  return file;
+}
+
+const TfliteFile& file_of_bent() {
+  static const TfliteFile file = read_tflite(limbcast_bent_depth_pose);
   return file;
 }
 
@@ -128,22 +135,51 @@ float person_odds(const Figures& figures) {
 
 /// What the network sees in a picture.
 struct SeenPerson {
-  float score = 0.0F;
+  float odds = 0.0F;
   std::array<SeenInDepths, kJointCount> joints;
 };
 
 SeenPerson read_figures(const Figures& figures) {
   SeenPerson seen;
-  seen.score = probability(person_odds(figures));
+  seen.odds = person_odds(figures);
   for (int joint = 0; joint < kJointCount; ++joint)
     seen.joints[static_cast<std::size_t>(joint)] = find_joint(figures, joint);
   return seen;
+}
+
+/// In the picture's frame.
+Eigen::Vector3f place_m(const DepthPicture& picture, const SeenInDepths& joint) {
+  return picture.camera.back_project(joint.px.x(), joint.px.y(),
+                                     picture.middle_m + joint.behind_middle_m);
+}
+
+/// Angle of the spine against gravity.
+float trunk_lean_deg(const DepthPicture& picture, const SeenPerson& person) {
+  const auto middle_m = [&](Joint left, Joint right) -> Eigen::Vector3f {
+    const auto& joints = person.joints;
+    return 0.5F * (place_m(picture, joints[index(left)]) + place_m(picture, joints[index(right)]));
+  };
+  const Eigen::Vector3f spine_m = middle_m(Joint::kHipLeft, Joint::kHipRight) -
+                                  middle_m(Joint::kShoulderLeft, Joint::kShoulderRight);
+  return kDegreesPerRadian<float> * std::atan2(std::hypot(spine_m.x(), spine_m.z()), spine_m.y());
 }
 
 /// Of a mark whose log odds are so high.
 float spread_m(float presence_odds, const DepthPoseParams& params) {
   return std::min(params.even_odds_spread_m * std::exp(-params.spread_log_slope * presence_odds),
                   params.max_spread_m);
+}
+
+/// Nothing where the log odds of a person are lower than that.
+std::optional<SeenPerson> ask(InstancePool<TfliteNetwork>& networks, const DepthPicture& picture,
+                              float min_odds, const DepthPoseParams& params) {
+  return networks.with([&](TfliteNetwork& network) -> std::optional<SeenPerson> {
+    Figures figures = figures_of(network, picture.channels);
+    if (person_odds(figures) < min_odds - params.mirror_adds_odds) return std::nullopt;
+    figures = figures_of_both(network, picture.channels, std::move(figures));
+    if (person_odds(figures) < min_odds) return std::nullopt;
+    return read_figures(figures);
+  });
 }
 
 }  // namespace
@@ -177,6 +213,7 @@ DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
   };
   of_cameras_ = pool(file_of_cameras);
   of_scans_ = pool(file_of_scans);
+  of_bent_ = pool(file_of_bent);
 }
 
 std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
@@ -185,23 +222,18 @@ std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
 
 std::optional<PoseInDepths> DepthPose::see_person(const DepthPicture& picture,
                                                   float min_person_odds) const {
-  const auto& networks = picture.of_scan ? of_scans_ : of_cameras_;
-  if (!networks) return std::nullopt;
-  const auto seen = networks->with([&](TfliteNetwork& network) -> std::optional<SeenPerson> {
-    Figures figures = figures_of(network, picture.channels);
-    if (person_odds(figures) < min_person_odds - params_.mirror_adds_odds) return std::nullopt;
-    figures = figures_of_both(network, picture.channels, std::move(figures));
-    if (person_odds(figures) < min_person_odds) return std::nullopt;
-    return read_figures(figures);
-  });
+  if (!params_.enabled) return std::nullopt;
+  auto seen = ask(picture.of_scan ? *of_scans_ : *of_cameras_, picture, min_person_odds, params_);
+  if (!seen || seen->odds < params_.sure_person_odds) {
+    auto bent = ask(*of_bent_, picture, seen ? seen->odds : min_person_odds, params_);
+    if (bent && trunk_lean_deg(picture, *bent) > params_.min_bent_lean_deg) seen = std::move(bent);
+  }
   if (!seen) return std::nullopt;
   PoseInDepths pose;
-  pose.person_score = seen->score;
+  pose.person_score = probability(seen->odds);
   for (std::size_t i = 0; i < seen->joints.size(); ++i) {
     const SeenInDepths& joint = seen->joints[i];
-    pose.places_m[i] = picture.frame_from_picture *
-                       picture.camera.back_project(joint.px.x(), joint.px.y(),
-                                                   picture.middle_m + joint.behind_middle_m);
+    pose.places_m[i] = picture.frame_from_picture * place_m(picture, joint);
     pose.visibilities[i] = probability(joint.presence_odds) * joint.visibility;
     pose.spreads_m[i] = spread_m(joint.presence_odds, params_);
   }

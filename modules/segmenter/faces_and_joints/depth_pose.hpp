@@ -26,10 +26,11 @@ struct PoseInDepths {
 /// before it.
 std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& view);
 
-/// limbcast's own networks of poses, one for cameras and one for scans (../models/README.md): they
+/// limbcast's own networks of poses (../models/README.md), one for cameras and one for scans: they
 /// see a person's joints in depths alone, left and right from how a body is built, and how far away
-/// each is. Trained on simulated people by tests/segmenter/train_depth_pose.sh. Several threads may
-/// use one object.
+/// each is. Where they are not sure of a person a third one is asked, which knows people who bend
+/// so far that their heads stand before their trunks, and is believed of these alone. Trained on
+/// simulated people by tests/segmenter/train_depth_pose.sh. Several threads may use one object.
 class DepthPose {
  public:
   explicit DepthPose(const DepthPoseParams& params);
@@ -42,7 +43,7 @@ class DepthPose {
 
  private:
   DepthPoseParams params_;
-  std::unique_ptr<InstancePool<TfliteNetwork>> of_cameras_, of_scans_;
+  std::unique_ptr<InstancePool<TfliteNetwork>> of_cameras_, of_scans_, of_bent_;
 };
 
 }  // namespace limbcast::segmenter

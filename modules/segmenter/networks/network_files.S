@@ -16,6 +16,10 @@ limbcast_depth_pose:
     .balign 16
 limbcast_scan_depth_pose:
     .incbin LIMBCAST_SCAN_DEPTH_POSE
+    .global limbcast_bent_depth_pose
+    .balign 16
+limbcast_bent_depth_pose:
+    .incbin LIMBCAST_BENT_DEPTH_POSE
     .global limbcast_move_net
     .balign 16
 limbcast_move_net:

@@ -199,6 +199,23 @@ TEST_P(PeopleWhoTouch, AreFoundWhereOneWasTakenForAPartOfTheOther) {
   EXPECT_EQ(count_found(cloud, frame, {}), 5);
 }
 
+TEST(PeopleWhoBend, AreFoundWhereTheirHeadsStandBeforeTheirTrunks) {
+  auto scene = person_in_sight(simulate::SensorKind::kDepth, "bow");
+  Params upright_only;
+  constexpr float kNobodyLeansSo_deg = 180.0F;
+  upright_only.depth_pose.min_bent_lean_deg = kNobodyLeansSo_deg;
+  constexpr std::uint64_t kPeople = 8;
+  std::ptrdiff_t found = 0, without = 0;
+  for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
+    const simulate::SimulatedFrame frame = simulate::simulate_frame(scene, seed, 0);
+    const Cloud cloud = depth_cloud(scene, frame);
+    found += count_found(cloud, frame, {});
+    without += count_found(cloud, frame, upright_only);
+  }
+  EXPECT_GE(found, 5);
+  EXPECT_LE(without, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Simulated, PeopleWhoTouch, ::testing::Values(13, 41));
 INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
 
