@@ -73,7 +73,10 @@ void move_trunk(Rng& rng, Posture& posture) {
 }
 
 /// Bends from hips and waist, as to pick something up or to rise from a seat.
-void bow(Rng& rng, const BodyShape& body, Posture& posture) {
+Posture bowing(Rng& rng, const BodyShape& body) {
+  Posture posture;
+  posture.name = "bow";
+  stand(rng, posture);
   const double bow_rad = rng.uniform(0.6, 1.6);  // a back that is level, and a little more
   const double of_hips = rng.uniform(0.5, 0.7);
   move_trunk(rng, posture);
@@ -99,6 +102,7 @@ void bow(Rng& rng, const BodyShape& body, Posture& posture) {
       set_clear_arm(body, side, posture, hanging);
     }
   }
+  return posture;
 }
 
 /// On both knees or on one, upright or sitting on the heels.
@@ -236,6 +240,7 @@ Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
     move_trunk(rng, posture);
     return posture;
   }
+  if (name == "bow") return bowing(rng, body);
   std::string arms[2] = {"hang", "hang"};
   if (name == "sit") {
     sit(rng, posture);
@@ -262,21 +267,13 @@ Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
     posture.lean_rad = rng.uniform(0.3, 0.9);
     arms[0] = arms[1] = "reachF";
   }
-  if (name == "kneel") {
-    kneel(rng, posture);
-  } else if (name == "floor") {
-    sit_on_floor(rng, posture);
-  }
   if (name == "kneel" || name == "floor") {
+    name == "kneel" ? kneel(rng, posture) : sit_on_floor(rng, posture);
     static const char* const kBusy[] = {"lap",  "hang",   "gesture", "reachF",
                                         "wave", "folded", "texting", "carry"};
     for (std::string& arm : arms) arm = kBusy[rng.pick(8)];
   }
   posture.name = name;
-  if (name == "bow") {
-    bow(rng, body, posture);
-    return posture;
-  }
   move_trunk(rng, posture);
   set_arm(rng, body, arms[0], Side::kLeft, posture);
   set_arm(rng, body, arms[1], Side::kRight, posture);

@@ -15,8 +15,7 @@ void SceneBuilder::seat(const BodyShape& body, const Skeleton& skeleton) {
   const Vector3d pelvis = skeleton[Joint::kPelvis];
   const Vector3d forward = skeleton.pelvis_R.col(2);
   const double yaw = std::atan2(forward.x(), forward.z());
-  const double top = std::max(
-      0.12, pelvis.y() - 0.055 * body.stature_m * body.hip_girth - 0.5 * body.clothes.legs_m);
+  const double top = std::max(0.12, seat_height_m(body, skeleton));
   const Vector3d at = pelvis + 0.06 * forward;
   const double kind = rng_.uniform();
   if (kind < 0.5) {

@@ -104,8 +104,7 @@ double sole_height(const BodyShape& body, const Skeleton& skeleton, int side) {
 /// Height of the lowest part of the body: a sole, a knee, the seat.
 double lowest_height(const BodyShape& body, const Skeleton& skeleton) {
   const double knee_m = 0.035 * body.stature_m;
-  const double seat_m = 0.055 * body.stature_m * body.hip_girth + 0.5 * body.clothes.legs_m;
-  double lowest = skeleton[Joint::kPelvis].y() - seat_m;
+  double lowest = seat_height_m(body, skeleton);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     lowest = std::min({lowest, sole_height(body, skeleton, static_cast<int>(side)),
                        skeleton[on_side(Joint::kKneeLeft, side)].y() - knee_m});
@@ -157,6 +156,11 @@ ArmPose reach(const BodyShape& body, const Vector3d& wrist_m, const Vector3d& po
     arm.fore = (distance * axis - elbow).normalized();
   }
   return arm;
+}
+
+double seat_height_m(const BodyShape& body, const Skeleton& skeleton) {
+  return skeleton[Joint::kPelvis].y() - 0.055 * body.stature_m * body.hip_girth -
+         0.5 * body.clothes.legs_m;
 }
 
 Skeleton make_skeleton(const BodyShape& body, const Posture& posture, const Place& place) {

@@ -79,6 +79,9 @@ ArmPose reach(const BodyShape& body, const Eigen::Vector3d& wrist_m, const Eigen
 /// the world's frame. Who is seated has the feet on it.
 Skeleton make_skeleton(const BodyShape& body, const Posture& posture, const Place& place);
 
+/// Of the lowest part of its hips, on which it sits.
+double seat_height_m(const BodyShape& body, const Skeleton& skeleton);
+
 /// The same skeleton in another frame.
 Skeleton transformed(const Skeleton& skeleton, const Eigen::Isometry3d& target_from_source);
 

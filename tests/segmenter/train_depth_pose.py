@@ -4,11 +4,11 @@
     train_depth_pose.py OUT.tflite SCANS_OUT.tflite BENT_OUT.tflite TRAINING.bin... --rings SCANS.bin...
                         --rasters SCANS.bin... --bent BENT.bin... [--check CHECK.bin...]
 
-OUT, for cameras, is trained on TRAINING; from there BENT_OUT on BENT and as many pictures of TRAINING, and SCANS_OUT on
-scans of rotating and of tilting scanners. Files are
-those of limbcast-write-depth-pictures. After each few epochs it prints what the network sees of the files to check by.
-train_depth_pose.sh makes the pictures and runs it. Needs Debian's python3-torch and python3-flatbuffers. On processors
-that compute with brain floats of 16 bits layers are computed in these.
+OUT, for cameras, is trained on TRAINING; from there BENT_OUT on BENT and four times as many pictures of TRAINING,
+and SCANS_OUT on scans of rotating and of tilting scanners. Files are those of limbcast-write-depth-pictures. After
+each few epochs it prints what the network sees of the files to check by. train_depth_pose.sh makes the pictures and
+runs it. Needs Debian's python3-torch and python3-flatbuffers. On processors that compute with brain floats of 16 bits
+layers are computed in these.
 """
 import argparse
 import copy

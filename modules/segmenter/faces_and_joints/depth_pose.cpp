@@ -31,18 +31,10 @@ constexpr int kPersonFigure = kKinds * kJointCount, kFigures = kPersonFigure + 1
 /// What a unit of the depths it tells is [m].
 constexpr float kDepthUnit_m = 0.25F;
 
-const TfliteFile& file_of_cameras() {
-  static const TfliteFile file = read_tflite(limbcast_depth_pose);
-  return file;
-}
-
-const TfliteFile& file_of_scans() {
-  static const TfliteFile file = read_tflite(limbcast_scan_depth_pose);
-  return file;
-}
-
-const TfliteFile& file_of_bent() {
-  static const TfliteFile file = read_tflite(limbcast_bent_depth_pose);
+/// Read when it is first asked for.
+template <const char* kBytes>
+const TfliteFile& file_in() {
+  static const TfliteFile file = read_tflite(kBytes);
   return file;
 }
 
@@ -147,8 +139,7 @@ SeenPerson read_figures(const Figures& figures) {
   return seen;
 }
 
-/// In the picture's frame.
-Eigen::Vector3f place_m(const DepthPicture& picture, const SeenInDepths& joint) {
+Eigen::Vector3f place_in_picture_m(const DepthPicture& picture, const SeenInDepths& joint) {
   return picture.camera.back_project(joint.px.x(), joint.px.y(),
                                      picture.middle_m + joint.behind_middle_m);
 }
@@ -157,7 +148,8 @@ Eigen::Vector3f place_m(const DepthPicture& picture, const SeenInDepths& joint) 
 float trunk_lean_deg(const DepthPicture& picture, const SeenPerson& person) {
   const auto middle_m = [&](Joint left, Joint right) -> Eigen::Vector3f {
     const auto& joints = person.joints;
-    return 0.5F * (place_m(picture, joints[index(left)]) + place_m(picture, joints[index(right)]));
+    return 0.5F * (place_in_picture_m(picture, joints[index(left)]) +
+                   place_in_picture_m(picture, joints[index(right)]));
   };
   const Eigen::Vector3f spine_m = middle_m(Joint::kHipLeft, Joint::kHipRight) -
                                   middle_m(Joint::kShoulderLeft, Joint::kShoulderRight);
@@ -211,9 +203,9 @@ DepthPose::DepthPose(const DepthPoseParams& params) : params_(params) {
         },
         FirstInstance::kWhenAskedFor);
   };
-  of_cameras_ = pool(file_of_cameras);
-  of_scans_ = pool(file_of_scans);
-  of_bent_ = pool(file_of_bent);
+  of_cameras_ = pool(file_in<limbcast_depth_pose>);
+  of_scans_ = pool(file_in<limbcast_scan_depth_pose>);
+  of_bent_ = pool(file_in<limbcast_bent_depth_pose>);
 }
 
 std::optional<PoseInDepths> DepthPose::look(const DepthPicture& picture) const {
@@ -233,7 +225,7 @@ std::optional<PoseInDepths> DepthPose::see_person(const DepthPicture& picture,
   pose.person_score = probability(seen->odds);
   for (std::size_t i = 0; i < seen->joints.size(); ++i) {
     const SeenInDepths& joint = seen->joints[i];
-    pose.places_m[i] = picture.frame_from_picture * place_m(picture, joint);
+    pose.places_m[i] = picture.frame_from_picture * place_in_picture_m(picture, joint);
     pose.visibilities[i] = probability(joint.presence_odds) * joint.visibility;
     pose.spreads_m[i] = spread_m(joint.presence_odds, params_);
   }
