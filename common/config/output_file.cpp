@@ -1,5 +1,7 @@
 #include "common/config/output_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -57,5 +59,14 @@ void make_output_folder(const std::string& option, const std::string& path) {
   if (fs::exists(path, error)) throw UsageError(path + ": is no folder; give one to " + option);
   throw UsageError(path + ": cannot be made; choose another " + option);
 }
+
+FolderLock::FolderLock(const std::string& path)
+    : descriptor_(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw UsageError(path + ": is being written by another process; choose another folder");
+}
+
+FolderLock::~FolderLock() { close(descriptor_); }
 
 }  // namespace limbcast::config

@@ -20,4 +20,17 @@ void check_outputs_differ(const std::string& option, const std::string& path,
 /// that is not possible.
 void make_output_folder(const std::string& option, const std::string& path);
 
+/// Keeps a folder from other processes that lock it too, while it lives.
+class FolderLock {
+ public:
+  /// Throws UsageError where another process holds it. File systems without locks go without.
+  explicit FolderLock(const std::string& path);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 }  // namespace limbcast::config

@@ -9,7 +9,9 @@
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
+#include <list>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -97,8 +99,9 @@ class FrameWriter {
  public:
   FrameWriter(const ExtractOptions& options, std::string sensor)
       : options_(options), sensor_(std::move(sensor)) {
-    require_no_recording(options.folder);
     config::make_output_folder("FOLDER", options.folder);
+    lock_.emplace(options.folder);
+    require_no_recording(options.folder);
   }
 
   void take(const LogEvent& event) {
@@ -164,6 +167,7 @@ class FrameWriter {
 
   const ExtractOptions& options_;
   std::string sensor_;
+  std::optional<config::FolderLock> lock_;  ///< timestamps.csv comes last
   bool has_calibration_ = false;
   std::set<std::int64_t> written_;
   std::vector<Stamp> stamps_;
@@ -209,7 +213,10 @@ class PoseWriter {
     if (!is_new)
       throw UsageError(options_.in + ": poses of '" + owner->second + "' and '" + channel +
                        "' would both be " + owner->first + "; choose one with --channel");
-    file.open(unfinished_file(path_of(channel)));
+    const std::string unfinished = unfinished_file(path_of(channel));
+    // A pipe would be waited for by one who reads it.
+    if (!std::filesystem::is_other(unfinished)) locks_.emplace_back(unfinished);
+    file.open(unfinished);
     return file;
   }
   std::string path_of(const std::string& channel) const {
@@ -220,6 +227,7 @@ class PoseWriter {
   }
 
   const ExtractOptions& options_;
+  std::list<lcm_io::FileLock> locks_;           ///< no other process writes the files
   std::map<std::string, std::ofstream> files_;  ///< by channel
   std::map<std::string, std::string> owners_;   ///< the channel of each file's name
   std::set<std::string> other_sensors_;

@@ -11,7 +11,6 @@
 #include "common/camera/calibration_writer.hpp"
 #include "common/camera/picture_file.hpp"
 #include "common/config/options.hpp"
-#include "common/config/output_file.hpp"
 #include "common/whole_file.hpp"
 #include "modules/simulate/truth.hpp"
 
@@ -48,11 +47,12 @@ void write_pcd(const std::string& path, const LaserScan& scan) {
 FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& params)
     : folder_(folder), params_(params) {
   const std::string timestamps = folder + "/timestamps.csv";
+  config::make_output_folder("--output", folder);
+  lock_.emplace(folder);
   std::error_code error;
   if (std::filesystem::exists(timestamps, error))
     throw config::UsageError(
         folder + ": holds a recording already; choose another --output or delete the folder");
-  config::make_output_folder("--output", folder);
   timestamps_.open(timestamps);
   if (!timestamps_)
     throw config::UsageError(folder + ": cannot write there; choose another --output");

@@ -101,5 +101,15 @@ TEST(OutputFolder, IsRefusedWhereItCannotBe) {
   EXPECT_EQ(refusal_of(file + "/a"), file + "/a: cannot be made; choose another --output");
 }
 
+TEST(FolderLock, KeepsOthersOutWhileItLives) {
+  const TemporaryFolder folder;
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_EQ(test::error_of<UsageError>([&] { FolderLock(folder.path()); }),
+              folder.path() + ": is being written by another process; choose another folder");
+  }
+  EXPECT_NO_THROW(FolderLock(folder.path()));
+}
+
 }  // namespace
 }  // namespace limbcast::config
