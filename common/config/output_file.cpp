@@ -52,6 +52,11 @@ void check_outputs_differ(const std::string& option, const std::string& path,
     throw UsageError(path + ": is what " + other_option + " writes; choose another " + option);
 }
 
+std::runtime_error cannot_write_to_stdout() {
+  const std::string reason = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+  return std::runtime_error("cannot write to stdout" + reason);
+}
+
 void make_output_folder(const std::string& option, const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ void check_output_file(const std::string& option, const std::string& path,
 /// Throws UsageError where two options give the same file: one would be written over the other.
 void check_outputs_differ(const std::string& option, const std::string& path,
                           const std::string& other_option, const std::string& other_path);
+
+/// What is wrong where stdout takes no more, with the reason where one is known (errno).
+std::runtime_error cannot_write_to_stdout();
 
 /// Makes the folder that the user gave to `option` where it is missing. Throws UsageError where
 /// that is not possible.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limbcast/body_poses_t.hpp>
@@ -189,6 +191,7 @@ class PoseWriter {
       return;
     }
     std::ofstream& file = file_of(event.channel);
+    errno = 0;
     file << pose_json::to_line(poses) << '\n';
     if (!file) throw cannot_write(event.channel);
     ++lines_;
@@ -196,6 +199,7 @@ class PoseWriter {
 
   std::int64_t finish(bool interrupted) {
     for (auto& [channel, file] : files_) {
+      errno = 0;
       file.close();
       if (!file) throw cannot_write(channel);
       if (!interrupted) finish_file(path_of(channel));
@@ -223,7 +227,8 @@ class PoseWriter {
     return options_.folder + "/" + file_name_of(channel);
   }
   std::runtime_error cannot_write(const std::string& channel) const {
-    return std::runtime_error(path_of(channel) + ": cannot be written");
+    return std::runtime_error(unfinished_file(path_of(channel)) + ": cannot be written (" +
+                              std::strerror(errno) + "); make room or choose another folder");
   }
 
   const ExtractOptions& options_;

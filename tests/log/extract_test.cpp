@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <limbcast/stereo_images_t.hpp>
 
@@ -224,6 +227,20 @@ TEST_F(Extract, OfPosesRefusesAFileThatAnotherProcessWrites) {
   const lcm_io::FileLock other(unfinished);
   EXPECT_EQ(test::error_of<config::UsageError>([&] { extract(options(log_, Extracted::kPoses)); }),
             unfinished + ": is being written by another process; choose another file");
+}
+
+TEST_F(Extract, OfPosesSaysThatTheDiskIsFull) {
+  write_crowd(log_);
+  const auto extract_on_a_full_disk = [this] {
+    const rlimit limit{10'000, 10'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+    run_and_exit([this] { extract(options(log_, Extracted::kPoses)); });
+  };
+  EXPECT_EXIT(extract_on_a_full_disk(), ::testing::ExitedWithCode(1),
+              "log: " + out_ +
+                  "/BODY_POSES.jsonl.unfinished: cannot be written \\(File too large\\); make room "
+                  "or choose another folder\n");
 }
 
 TEST_F(Extract, AsksForAFolderWhereAFileIsGiven) {
