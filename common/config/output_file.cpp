@@ -21,6 +21,14 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
+/// `written`: the path, or the folder in which it is made.
+void check_writable(const std::string& path, const std::string& written,
+                    const std::string& option) {
+  if (access(written.c_str(), W_OK) == 0) return;
+  throw UsageError(path + ": cannot be written (" + std::strerror(errno) + "); choose another " +
+                   option);
+}
+
 }  // namespace
 
 void check_output_file(const std::string& option, const std::string& path,
@@ -39,10 +47,7 @@ void check_output_file(const std::string& option, const std::string& path,
   if (!fs::is_directory(folder, ignored))
     throw UsageError(path + ": there is no folder " + folder + "; make it or choose another " +
                      option);
-  const std::string& written = fs::exists(path, ignored) ? path : folder;
-  if (access(written.c_str(), W_OK) != 0)
-    throw UsageError(path + ": cannot be written (" + std::strerror(errno) + "); choose another " +
-                     option);
+  check_writable(path, fs::exists(path, ignored) ? path : folder, option);
 }
 
 void check_outputs_differ(const std::string& option, const std::string& path,
@@ -58,11 +63,11 @@ std::runtime_error cannot_write_to_stdout() {
 }
 
 void make_output_folder(const std::string& option, const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (fs::is_directory(path, error)) return;
-  if (fs::exists(path, error)) throw UsageError(path + ": is no folder; give one to " + option);
-  throw UsageError(path + ": cannot be made; choose another " + option);
+  std::error_code reason, ignored;
+  fs::create_directories(path, reason);
+  if (fs::is_directory(path, ignored)) return check_writable(path, path, option);
+  if (fs::exists(path, ignored)) throw UsageError(path + ": is no folder; give one to " + option);
+  throw UsageError(path + ": cannot be made (" + reason.message() + "); choose another " + option);
 }
 
 FolderLock::FolderLock(const std::string& path)
