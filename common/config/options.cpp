@@ -6,6 +6,7 @@
 #include <array>
 #include <boost/program_options.hpp>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +22,7 @@
 #include "common/config/byte_order_mark.hpp"
 #include "common/config/log.hpp"
 #include "common/config/option_name.hpp"
+#include "common/config/output_file.hpp"
 #include "common/config/setting_lines.hpp"
 #include "common/config/version.hpp"
 #include "common/input_file.hpp"
@@ -325,8 +327,8 @@ int run_program(const std::string& program, const std::function<void()>& body) {
   try {
     body();
     // A full disk must not pass for a report.
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw std::runtime_error("cannot write to stdout");
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw cannot_write_to_stdout();
     return 0;
   } catch (const InputError& error) {
     log_failure(program, error.what());

@@ -1,5 +1,7 @@
 #include "common/config/output_file.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,6 +19,14 @@ namespace fs = std::filesystem;
 std::string folder_of(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
+}
+
+/// `written`: the path, or the folder in which it is made.
+void check_writable(const std::string& path, const std::string& written,
+                    const std::string& option) {
+  if (access(written.c_str(), W_OK) == 0) return;
+  throw UsageError(path + ": cannot be written (" + std::strerror(errno) + "); choose another " +
+                   option);
 }
 
 }  // namespace
@@ -37,10 +47,7 @@ void check_output_file(const std::string& option, const std::string& path,
   if (!fs::is_directory(folder, ignored))
     throw UsageError(path + ": there is no folder " + folder + "; make it or choose another " +
                      option);
-  const std::string& written = fs::exists(path, ignored) ? path : folder;
-  if (access(written.c_str(), W_OK) != 0)
-    throw UsageError(path + ": cannot be written (" + std::strerror(errno) + "); choose another " +
-                     option);
+  check_writable(path, fs::exists(path, ignored) ? path : folder, option);
 }
 
 void check_outputs_differ(const std::string& option, const std::string& path,
@@ -50,12 +57,26 @@ void check_outputs_differ(const std::string& option, const std::string& path,
     throw UsageError(path + ": is what " + other_option + " writes; choose another " + option);
 }
 
-void make_output_folder(const std::string& option, const std::string& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (fs::is_directory(path, error)) return;
-  if (fs::exists(path, error)) throw UsageError(path + ": is no folder; give one to " + option);
-  throw UsageError(path + ": cannot be made; choose another " + option);
+std::runtime_error cannot_write_to_stdout() {
+  const std::string reason = errno == 0 ? "" : std::string(" (") + std::strerror(errno) + ")";
+  return std::runtime_error("cannot write to stdout" + reason);
 }
+
+void make_output_folder(const std::string& option, const std::string& path) {
+  std::error_code reason, ignored;
+  fs::create_directories(path, reason);
+  if (fs::is_directory(path, ignored)) return check_writable(path, path, option);
+  if (fs::exists(path, ignored)) throw UsageError(path + ": is no folder; give one to " + option);
+  throw UsageError(path + ": cannot be made (" + reason.message() + "); choose another " + option);
+}
+
+FolderLock::FolderLock(const std::string& path)
+    : descriptor_(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw UsageError(path + ": is being written by another process; choose another folder");
+}
+
+FolderLock::~FolderLock() { close(descriptor_); }
 
 }  // namespace limbcast::config

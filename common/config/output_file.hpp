@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,24 @@ void check_output_file(const std::string& option, const std::string& path,
 void check_outputs_differ(const std::string& option, const std::string& path,
                           const std::string& other_option, const std::string& other_path);
 
+/// What is wrong where stdout takes no more, with the reason where one is known (errno).
+std::runtime_error cannot_write_to_stdout();
+
 /// Makes the folder that the user gave to `option` where it is missing. Throws UsageError where
 /// that is not possible.
 void make_output_folder(const std::string& option, const std::string& path);
+
+/// Keeps a folder from other processes that lock it too, while it lives.
+class FolderLock {
+ public:
+  /// Throws UsageError where another process holds it. File systems without locks go without.
+  explicit FolderLock(const std::string& path);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace limbcast::config

@@ -10,7 +10,6 @@
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
 #include "common/lcm_io/lcm_url.hpp"
-#include "common/lcm_io/log_file.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
@@ -22,18 +21,16 @@ constexpr std::chrono::milliseconds kNetworkPeriod{200};
 /// How often the group is joined anew, in case the device or the route has changed.
 constexpr std::chrono::seconds kMembershipPeriod{1};
 
-/// Of a log that is played. LCM would say on stderr that it cannot be, and we blame the network;
-/// one that is written (mode=w) need not be there.
-void check_log_of(const std::string& url) {
-  static const std::string kKind = "file://";
-  if (url.rfind(kKind, 0) != 0 || url.find("mode=") != std::string::npos) return;
-  LogReader(url.substr(kKind.size(), url.find('?') - kKind.size()));
+/// What to do about a URL that is none of a live bus.
+std::string advice_for(const std::string& url) {
+  return is_url_of_file(url)
+             ? "play a log with lcm-logplayer beside the modules, or give it to limbcast-replay"
+             : "write it like udpm://239.255.76.67:7667?ttl=1";
 }
 
 /// What LCM is started with.
 std::string url_within_limits(const std::string& url) {
   const std::string wanted = effective_url(url);
-  check_log_of(wanted);
   const auto limit = receive_buffer_limit();
   if (!limit) return wanted;
   std::string given = with_receive_buffer_of_at_most(*limit, wanted);
@@ -56,7 +53,7 @@ std::string chosen_url(const std::string& url) {
   const std::string fault = url_fault(chosen);
   if (!fault.empty())
     throw config::UsageError((url.empty() ? "LCM_DEFAULT_URL '" : "lcm-url '") + chosen +
-                             "': " + fault + "; write it like udpm://239.255.76.67:7667?ttl=1");
+                             "': " + fault + "; " + advice_for(chosen));
   return chosen;
 }
 
@@ -127,8 +124,10 @@ void Bus::subscribe_bytes(const std::string& channel, Keep keep,
 }
 
 std::string Bus::publish_bytes(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+  errno = 0;
   const int status = lcm_.publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
-  return status < 0 ? std::strerror(errno) : "";
+  if (status >= 0) return "";
+  return errno != 0 ? std::strerror(errno) : "LCM does not say why";
 }
 
 void Bus::on_message(const lcm_recv_buf_t* buffer, const char* channel, void* context) {

@@ -16,7 +16,7 @@ namespace limbcast::lcm_io {
 namespace {
 
 /// What LCM can be told to talk over; only udpm is looked at closer.
-constexpr std::array<std::string_view, 5> kKinds = {"udpm", "mpudpm", "tcpq", "memq", "file"};
+constexpr std::array<std::string_view, 4> kKinds = {"udpm", "mpudpm", "tcpq", "memq"};
 
 /// The parts of a udpm URL, each perhaps missing: address, port, arguments.
 const std::regex& multicast_form() {
@@ -80,7 +80,10 @@ sockaddr_in MulticastUrl::socket_address() const {
   return socket_address;
 }
 
+bool is_url_of_file(const std::string& url) { return url.rfind("file://", 0) == 0; }
+
 std::string url_fault(const std::string& url) {
+  if (is_url_of_file(url)) return "is a file, no live URL";
   const std::size_t kind_end = url.find("://");
   const bool is_known =
       kind_end != std::string::npos &&

@@ -18,11 +18,15 @@ struct MulticastUrl {
   sockaddr_in socket_address() const;
 };
 
-/// What is wrong with an LCM URL, e.g. "has no port"; empty: nothing. LCM would take some such URLs
-/// for others, or blame the firewall.
+/// LCM reads or writes a log by such a URL, but not both: a module would hear nothing, or say with
+/// each message that it cannot be sent.
+bool is_url_of_file(const std::string& url);
+
+/// What is wrong with a live LCM URL, e.g. "has no port"; empty: nothing. LCM would take some such
+/// URLs for others, or blame the firewall.
 std::string url_fault(const std::string& url);
 
-/// Nothing for another kind of URL (memq://, file://) and for one that makes no sense.
+/// Nothing for another kind of URL (memq://) and for one that makes no sense.
 std::optional<MulticastUrl> parse_multicast_url(const std::string& url);
 
 /// Of the socket, where a URL names none [byte]: several images or clouds while a process is not

@@ -123,6 +123,21 @@ void keep_camera_options_out(SourceOptions& options, const std::string& second_k
   }
 }
 
+void keep_start_time_out(const SourceOptions& options, const config::Parser& parser) {
+  const std::string& source = options.source.empty() ? options.second_source : options.source;
+  keep_start_time_out(source, is_camera(source) || is_lcm_log(source), parser);
+}
+
+void keep_start_time_out(const std::string& source, bool has_own_times,
+                         const config::Parser& parser) {
+  if (!parser.on_command_line("start-time-s")) return;
+  const std::string timestamps = (fs::path(source) / "timestamps.csv").string();
+  const bool has_timestamps = fs::is_directory(source) && fs::exists(timestamps);
+  if (has_timestamps || has_own_times)
+    throw config::UsageError((has_timestamps ? timestamps : source) +
+                             ": tells the times of the frames; leave out start-time-s");
+}
+
 void require_end(const SourceProcessOptions& options) {
   if (options.log.empty() || !options.source.loop) return;
   throw config::UsageError("'log' and 'loop' together never end; leave one out");

@@ -54,6 +54,14 @@ void refuse_live_options(const std::string& recording, const std::vector<std::st
 void keep_camera_options_out(SourceOptions& options, const std::string& second_key,
                              const config::Parser& parser);
 
+/// Throws config::UsageError where the command line gives the time of the first frame, but the
+/// source has times of its own: a folder with timestamps.csv, a log, or a camera. A robot's
+/// configuration file may tell it: of no use then.
+void keep_start_time_out(const SourceOptions& options, const config::Parser& parser);
+/// The same of other sources, which their program knows to have times of their own.
+void keep_start_time_out(const std::string& source, bool has_own_times,
+                         const config::Parser& parser);
+
 /// Throws config::UsageError for a log that would never end.
 void require_end(const SourceProcessOptions& options);
 

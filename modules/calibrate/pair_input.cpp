@@ -127,6 +127,10 @@ void visit_source(const SourceOptions& options, const PairFormat& format,
 
 bool in_sequence(const std::string& source) { return !std::filesystem::is_directory(source); }
 
+std::size_t count_pairs(const std::string& folder) {
+  return find_recording(folder, kNames, {}).frames.size();
+}
+
 void visit_pairs(const SourceOptions& options, const Take& take) {
   if (options.source.empty()) throw config::UsageError("--source is missing; see --help");
   if (std::filesystem::is_directory(options.source)) {

@@ -33,6 +33,9 @@ bool in_sequence(const std::string& source);
 void visit_source(const SourceOptions& options, const PairFormat& format,
                   const std::function<bool(const FramePair&)>& take);
 
+/// How many pairs a folder holds. Throws InputError where it is none of pairs.
+std::size_t count_pairs(const std::string& folder);
+
 /// Calls `take` with each pair of a folder (NAME_left, NAME_right), an LCM log, a video or cameras,
 /// until the source ends or `take` returns false. Throws InputError where the source cannot be
 /// used, std::runtime_error where the program is told to end.

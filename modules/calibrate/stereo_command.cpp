@@ -39,6 +39,11 @@ void declare(config::Section& section, Options& options) {
 
 void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
 
+void print_now(const std::string& words) {
+  print(words);
+  std::fflush(stdout);
+}
+
 /// Tells those who hold the board why nothing happens, not for each frame.
 class Hints {
  public:
@@ -65,12 +70,15 @@ void tell_taken(const ViewCollector& collector) {
 }
 
 ViewCollector collect_shots(const SourceOptions& source, const Board& board) {
+  config::log(config::LogLevel::kInfo,
+              formatted("%s: looks for the board in %zu pairs", source.source.c_str(),
+                        count_pairs(source.source)));
   ViewCollector collector(board, false);
   visit_pairs(source, [&](const GreyPair& pair) {
-    collector.add(pair);
+    // Told at once: where there is no board it is looked for longest, a second in large pictures.
+    if (!collector.add(pair)) print_now(rejected_table({collector.rejected().back()}));
     return true;
   });
-  print(rejected_table(collector.rejected()));
   return collector;
 }
 

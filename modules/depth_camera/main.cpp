@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
     if (!parser.parse(argc, argv)) return;
     require_input(options.process, "limbcast-depth-camera", /*second_will_do=*/true);
     keep_camera_options_out(options.process.source, depth_camera::kSecondKey, parser);
+    keep_start_time_out(options.process.source, parser);
     depth_camera::run(options, parser.common());
   });
 }

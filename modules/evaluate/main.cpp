@@ -108,7 +108,7 @@ std::vector<Figure> compare_tracked(const Options& options, const std::vector<Tr
 /// A full disk must not pass for a report.
 void print(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-    throw std::runtime_error("cannot write to stdout");
+    throw config::cannot_write_to_stdout();
 }
 
 void run(int argc, const char* const* argv) {

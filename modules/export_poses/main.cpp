@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "common/config/log.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/bus.hpp"
 #include "common/lcm_io/module.hpp"
@@ -24,11 +25,11 @@ struct Options {
 void write_poses(const BodyPoses& poses, const Options& options) {
   const std::string text =
       options.format == "json" ? pose_json::to_line(poses) + "\n" : pose_json::to_text(poses);
-  if (std::fputs(text.c_str(), stdout) < 0) throw std::runtime_error("cannot write to stdout");
+  if (std::fputs(text.c_str(), stdout) < 0) throw config::cannot_write_to_stdout();
 }
 
 void flush_lines() {
-  if (std::fflush(stdout) != 0) throw std::runtime_error("cannot write to stdout");
+  if (std::fflush(stdout) != 0) throw config::cannot_write_to_stdout();
 }
 
 void export_log(const Options& options) {

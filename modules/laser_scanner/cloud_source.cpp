@@ -23,6 +23,10 @@ using Clock = std::chrono::steady_clock;
 
 const std::string kLivePrefix = "velodyne:";
 
+bool is_live_velodyne(const std::string& source) {
+  return source.compare(0, kLivePrefix.size(), kLivePrefix) == 0;
+}
+
 /// What the kinds of sources mean by x, y and z where nobody says otherwise.
 std::string axes_of(const CloudSourceParams& params, const std::string& usual) {
   return params.axes.empty() ? usual : params.axes;
@@ -247,9 +251,14 @@ std::unique_ptr<CloudSource> open_velodyne(const CloudSourceParams& params) {
 
 }  // namespace
 
+bool is_of_packets(const std::string& source) {
+  return is_live_velodyne(source) ||
+         (extension_of(source) == ".pcap" && fs::is_regular_file(source));
+}
+
 std::unique_ptr<CloudSource> open_cloud_source(const CloudSourceParams& params) {
   const std::string& source = params.source;
-  if (source.compare(0, kLivePrefix.size(), kLivePrefix) == 0) return open_velodyne(params);
+  if (is_live_velodyne(source)) return open_velodyne(params);
   if (fs::is_directory(source)) {
     return std::make_unique<CloudFiles>(
         params, find_recording_of_files(source, cloud_extensions(source), params.recording));

@@ -34,6 +34,9 @@ struct CloudSourceParams {
   std::string sensor, frame;  ///< for the stamp
 };
 
+/// A recording of packets or a live sensor, whose clocks tell the times.
+bool is_of_packets(const std::string& source);
+
 /// Opens a folder of .pcd, .ply or .bin files (with timestamps.csv and NAME_gt.json), one such
 /// file, a pcap recording of a Velodyne, or a Velodyne itself. Throws InputError where that is not
 /// possible.

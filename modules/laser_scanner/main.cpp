@@ -116,6 +116,7 @@ void run(Options& options, const config::Parser& parser) {
     throw InputError(options.source.source + ": is an LCM log; play its clouds with lcm-logplayer");
   if (std::filesystem::exists(options.source.source))
     refuse_live_options(options.source.source, {"stall-timeout-s"}, parser);
+  keep_start_time_out(options.source.source, is_of_packets(options.source.source), parser);
   check_limits(options.source);
   options.process.source.source = options.source.source;  // a log must not be written over it
   options.process.source.loop = options.source.loop = options.process.source.loop;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limbcast/body_poses_t.hpp>
@@ -9,7 +11,9 @@
 #include <limbcast/point_cloud_t.hpp>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
+#include <list>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -97,8 +101,9 @@ class FrameWriter {
  public:
   FrameWriter(const ExtractOptions& options, std::string sensor)
       : options_(options), sensor_(std::move(sensor)) {
-    require_no_recording(options.folder);
     config::make_output_folder("FOLDER", options.folder);
+    lock_.emplace(options.folder);
+    require_no_recording(options.folder);
   }
 
   void take(const LogEvent& event) {
@@ -164,6 +169,7 @@ class FrameWriter {
 
   const ExtractOptions& options_;
   std::string sensor_;
+  std::optional<config::FolderLock> lock_;  ///< timestamps.csv comes last
   bool has_calibration_ = false;
   std::set<std::int64_t> written_;
   std::vector<Stamp> stamps_;
@@ -185,6 +191,7 @@ class PoseWriter {
       return;
     }
     std::ofstream& file = file_of(event.channel);
+    errno = 0;
     file << pose_json::to_line(poses) << '\n';
     if (!file) throw cannot_write(event.channel);
     ++lines_;
@@ -192,6 +199,7 @@ class PoseWriter {
 
   std::int64_t finish(bool interrupted) {
     for (auto& [channel, file] : files_) {
+      errno = 0;
       file.close();
       if (!file) throw cannot_write(channel);
       if (!interrupted) finish_file(path_of(channel));
@@ -209,17 +217,22 @@ class PoseWriter {
     if (!is_new)
       throw UsageError(options_.in + ": poses of '" + owner->second + "' and '" + channel +
                        "' would both be " + owner->first + "; choose one with --channel");
-    file.open(unfinished_file(path_of(channel)));
+    const std::string unfinished = unfinished_file(path_of(channel));
+    // A pipe would be waited for by one who reads it.
+    if (!std::filesystem::is_other(unfinished)) locks_.emplace_back(unfinished);
+    file.open(unfinished);
     return file;
   }
   std::string path_of(const std::string& channel) const {
     return options_.folder + "/" + file_name_of(channel);
   }
   std::runtime_error cannot_write(const std::string& channel) const {
-    return std::runtime_error(path_of(channel) + ": cannot be written");
+    return std::runtime_error(unfinished_file(path_of(channel)) + ": cannot be written (" +
+                              std::strerror(errno) + "); make room or choose another folder");
   }
 
   const ExtractOptions& options_;
+  std::list<lcm_io::FileLock> locks_;           ///< no other process writes the files
   std::map<std::string, std::ofstream> files_;  ///< by channel
   std::map<std::string, std::string> owners_;   ///< the channel of each file's name
   std::set<std::string> other_sensors_;

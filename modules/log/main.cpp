@@ -3,6 +3,7 @@
 
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
 #include "common/config/version.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/log/cut.hpp"
@@ -37,7 +38,7 @@ struct Channels {
 
 void print(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-    throw std::runtime_error("cannot write to stdout");
+    throw config::cannot_write_to_stdout();
 }
 
 void warn_of_losses(std::int64_t torn_bytes, std::int64_t damaged_bytes) {

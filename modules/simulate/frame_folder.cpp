@@ -1,6 +1,8 @@
 #include "modules/simulate/frame_folder.hpp"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -11,7 +13,6 @@
 #include "common/camera/calibration_writer.hpp"
 #include "common/camera/picture_file.hpp"
 #include "common/config/options.hpp"
-#include "common/config/output_file.hpp"
 #include "common/whole_file.hpp"
 #include "modules/simulate/truth.hpp"
 
@@ -48,14 +49,16 @@ void write_pcd(const std::string& path, const LaserScan& scan) {
 FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& params)
     : folder_(folder), params_(params) {
   const std::string timestamps = folder + "/timestamps.csv";
+  config::make_output_folder("--output", folder);
+  lock_.emplace(folder);
   std::error_code error;
   if (std::filesystem::exists(timestamps, error))
     throw config::UsageError(
         folder + ": holds a recording already; choose another --output or delete the folder");
-  config::make_output_folder("--output", folder);
   timestamps_.open(timestamps);
   if (!timestamps_)
-    throw config::UsageError(folder + ": cannot write there; choose another --output");
+    throw config::UsageError(timestamps + ": cannot be written (" + std::strerror(errno) +
+                             "); choose another --output");
   timestamps_ << "name,utime,down_x,down_y,down_z\n";
   const std::string calibration = folder + "/calibration.yml";
   if (params.sensor == SensorKind::kStereo)
@@ -93,7 +96,9 @@ void FrameFolder::write(const SimulatedFrame& frame) {
   std::snprintf(line, sizeof(line), "%s,%lld,%.5f,%.5f,%.5f\n", frame.scenario.name.c_str(),
                 static_cast<long long>(frame.scenario.utime), down.x(), down.y(), down.z());
   timestamps_ << line << std::flush;
-  if (!timestamps_) throw std::runtime_error(folder_ + "/timestamps.csv: cannot be written");
+  if (!timestamps_)
+    throw std::runtime_error(folder_ + "/timestamps.csv: cannot be written (" +
+                             std::strerror(errno) + ")");
 }
 
 }  // namespace limbcast::simulate

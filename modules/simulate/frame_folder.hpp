@@ -1,8 +1,10 @@
 #pragma once
 
 #include <fstream>
+#include <optional>
 #include <string>
 
+#include "common/config/output_file.hpp"
 #include "modules/simulate/simulator.hpp"
 
 namespace limbcast::simulate {
@@ -28,6 +30,7 @@ class FrameFolder {
 
   std::string folder_;
   SimulatorParams params_;
+  std::optional<config::FolderLock> lock_;
   std::ofstream timestamps_;
 };
 

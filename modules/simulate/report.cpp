@@ -9,6 +9,8 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,7 @@
 #include <stdexcept>
 
 #include "common/config/log.hpp"
+#include "common/config/options.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/lcm_io/module.hpp"
 #include "modules/simulate/frame_messages.hpp"
@@ -31,8 +34,12 @@ namespace fs = std::filesystem;
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "limbcast_report_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+    const char* told = std::getenv("TMPDIR");
+    const std::string place = told != nullptr && *told != '\0' ? told : "/tmp";
+    std::string name = fs::path(place) / "limbcast_report_XXXXXX";
+    if (mkdtemp(name.data()) == nullptr)
+      throw config::UsageError(place + ": no temporary folder can be made there (" +
+                               std::strerror(errno) + "); set TMPDIR to another");
     path_ = name;
   }
   ~TemporaryFolder() {

@@ -10,6 +10,7 @@
 
 #include "common/config/log.hpp"
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/bus.hpp"
 #include "common/lcm_io/module.hpp"
 #include "common/lcm_io/module_status_codec.hpp"
@@ -66,7 +67,7 @@ int terminal_width() {
 
 void print(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-    throw std::runtime_error("cannot write to stdout");
+    throw config::cannot_write_to_stdout();
 }
 
 /// Listens until the time has come or a signal.

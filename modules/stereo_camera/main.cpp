@@ -109,6 +109,7 @@ int main(int argc, char** argv) {
     if (!parser.parse(argc, argv)) return;
     require_input(options.process, "limbcast-stereo-camera");
     keep_camera_options_out(options.process.source, stereo_camera::kSecondKey, parser);
+    keep_start_time_out(options.process.source, parser);
     stereo_camera::run(options, parser.common());
   });
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <opencv2/core/utils/logger.hpp>
 #include <stdexcept>
 
 #include "common/camera/picture_file.hpp"
@@ -47,11 +48,13 @@ SheetVideo::SheetVideo(std::string path, double frames_per_s)
   constexpr const char* kQuiet = "-8";
   constexpr int kUnlessToldOtherwise = 0;
   setenv("OPENCV_FFMPEG_LOGLEVEL", kQuiet, kUnlessToldOtherwise);
+  // Where FFmpeg cannot begin a file OpenCV tries GStreamer, which says that it cannot either.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 }
 
 void SheetVideo::write(const DrawnFrame& frame) {
   if (!writer_.isOpened() && !writer_.open(unfinished_, codec_, frames_per_s_, frame.sheet.size()))
-    throw std::runtime_error(path_ + ": cannot be written");
+    throw std::runtime_error(path_ + ": cannot be written; is the disk full?");
   writer_.write(frame.sheet);
   ++num_frames_;
 }

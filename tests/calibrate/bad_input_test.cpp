@@ -30,6 +30,20 @@ TEST(CalibrateProgram, RefusesPicturesWithoutBoard) {
   EXPECT_FALSE(fs::exists(folder / "calibration.yml"));
 }
 
+TEST(CalibrateProgram, TellsAPairWithoutBoardBeforeItLooksAtTheNext) {
+  const TemporaryFolder folder;
+  write_pair(folder, picture_of_wall("a", {64, 48}));
+  write_pair(folder, picture_of_wall("b", {64, 48}));
+  for (const fs::directory_entry& file : fs::directory_iterator(folder.path()))
+    if (file.path().stem() == "b_left") fs::resize_file(file.path(), 10);
+  const Outcome outcome = run_program(
+      "limbcast-calibrate", {"--source", folder.path(), "--output", folder / "calibration.yml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr(folder.path() + ": looks for the board in 2 pairs"));
+  EXPECT_THAT(outcome.err, HasSubstr("b_left"));
+  EXPECT_EQ(outcome.out, "a                     rejected: board not found in the left image\n");
+}
+
 TEST(CalibrateProgram, LeavesMalformedMessagesOfALogOut) {
   const TemporaryFolder folder;
   lcm_io::LogReader in(std::string(LIMBCAST_SOURCE_DIR) + "/logs/nobody.log");

@@ -181,11 +181,22 @@ TEST(Bus, PassesOnWhatAHandlerThrows) {
 
 TEST(Bus, SaysThatAUrlIsUnusable) { EXPECT_THROW(Bus("nonsense://"), config::UsageError); }
 
-TEST(Bus, SaysThatALogCannotBePlayed) {
+TEST(Bus, SaysThatAFileIsNotLiveAndWhatPlaysOne) {
+  // Also of a log that is there and could be read: what is published would go nowhere.
   ::testing::internal::CaptureStderr();
-  EXPECT_EQ(test::error_of<config::UsageError>([] { Bus("file:///none/run.log?speed=0"); }),
-            "/none/run.log: no such file; give a log made by lcm-logger");
+  for (const std::string url : {"file:///none/run.log?speed=0", "file:///tmp/new.log?mode=w"})
+    EXPECT_EQ(test::error_of<config::UsageError>([&] { Bus bus(url); }),
+              "lcm-url '" + url +
+                  "': is a file, no live URL; play a log with lcm-logplayer beside the modules, or "
+                  "give it to limbcast-replay");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Bus, DoesNotGiveSuccessAsTheReasonWhyAMessageIsNotSent) {
+  // Refused by LCM itself, so that no call of the system has failed.
+  const std::string too_long_for_lcm(100, 'C');
+  Bus bus(test::private_lcm_url());
+  EXPECT_EQ(bus.publish(too_long_for_lcm, numbered(1)), "LCM does not say why");
 }
 
 TEST(Bus, SaysThatNoServerAnswers) {

@@ -32,7 +32,7 @@ TEST(ParseMulticastUrl, RefusesWhatIsNoMulticastUrl) {
 TEST(UrlFault, IsNoneOfWhatLcmUnderstands) {
   for (const char* url : {"udpm://", "udpm://?ttl=1", "udpm://239.255.76.67:7667",
                           "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4000000", "memq://",
-                          "file:///tmp/run.log", "tcpq://robot:7700", "mpudpm://239.1.2.3:7667"})
+                          "tcpq://robot:7700", "mpudpm://239.1.2.3:7667"})
     EXPECT_EQ(url_fault(url), "") << url;
 }
 
@@ -51,6 +51,12 @@ TEST(UrlFault, NamesThePartThatIsWrong) {
               "'" + argument + "' is neither ttl=0 to 255 nor recv_buf_size=BYTES");
   for (const char* url : {"nonsense", "upd://239.1.2.3:7667", "239.1.2.3:7667"})
     EXPECT_EQ(url_fault(url), "does not begin with udpm://") << url;
+}
+
+TEST(UrlFault, IsThatAFileIsNotLive) {
+  for (const char* url : {"file:///tmp/run.log", "file:///tmp/run.log?speed=0",
+                          "file:///tmp/new.log?mode=w", "file://"})
+    EXPECT_EQ(url_fault(url), "is a file, no live URL") << url;
 }
 
 TEST(WithReceiveBuffer, AsksForSeveralImagesWhereAMulticastUrlNamesNoBuffer) {

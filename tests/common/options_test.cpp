@@ -262,7 +262,8 @@ TEST(RunProgram, FailsWhereItsOutputCannotBeWritten) {
     if (std::freopen("/dev/full", "w", stdout) == nullptr) std::abort();
     std::exit(run_program("p", [] { std::printf("good\n"); }));
   };
-  EXPECT_EXIT(print_to_a_full_disk(), ::testing::ExitedWithCode(1), "p: cannot write to stdout");
+  EXPECT_EXIT(print_to_a_full_disk(), ::testing::ExitedWithCode(1),
+              "p: cannot write to stdout \\(No space left on device\\)\n");
 }
 
 }  // namespace

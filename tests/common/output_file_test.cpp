@@ -61,9 +61,10 @@ TEST(OutputFile, IsRefusedWhereWhatIsLeftOfAnEarlierRunIsRead) {
       left + ": is what is read; choose another OUT.log");
 }
 
+constexpr auto kToLookAt = static_cast<std::filesystem::perms>(0555);
+
 TEST(OutputFile, IsRefusedWhereTheUserMayNotWrite) {
   const TemporaryFolder folder;
-  constexpr auto kToLookAt = static_cast<std::filesystem::perms>(0555);
   std::filesystem::permissions(folder.path(), kToLookAt);
   const auto tell = [&] {
     test::give_up_rights();
@@ -98,7 +99,34 @@ TEST(OutputFolder, IsRefusedWhereItCannotBe) {
     return test::error_of<UsageError>([&path] { make_output_folder("--output", path); });
   };
   EXPECT_EQ(refusal_of(file), file + ": is no folder; give one to --output");
-  EXPECT_EQ(refusal_of(file + "/a"), file + "/a: cannot be made; choose another --output");
+  EXPECT_EQ(refusal_of(file + "/a"),
+            file + "/a: cannot be made (Not a directory); choose another --output");
+}
+
+TEST(OutputFolder, IsRefusedWhereTheUserMayNotWrite) {
+  const TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), kToLookAt);
+  for (const auto& [path, refusal] :
+       {std::pair(folder.path(), ": cannot be written (Permission denied); choose another FOLDER"),
+        std::pair(folder / "new", ": cannot be made (Permission denied); choose another FOLDER")}) {
+    const auto tell = [&path = path] {
+      test::give_up_rights();
+      std::fputs(test::error_of<UsageError>([&] { make_output_folder("FOLDER", path); }).c_str(),
+                 stderr);
+      std::exit(0);
+    };
+    EXPECT_EXIT(tell(), ::testing::ExitedWithCode(0), HasSubstr(path + refusal));
+  }
+}
+
+TEST(FolderLock, KeepsOthersOutWhileItLives) {
+  const TemporaryFolder folder;
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_EQ(test::error_of<UsageError>([&] { FolderLock(folder.path()); }),
+              folder.path() + ": is being written by another process; choose another folder");
+  }
+  EXPECT_NO_THROW(FolderLock(folder.path()));
 }
 
 }  // namespace

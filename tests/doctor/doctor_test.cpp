@@ -68,8 +68,7 @@ TEST(Doctor, RefusesNamesThatNoModuleHas) {
 }
 
 TEST(Doctor, RefusesAUrlThatIsNotMulticast) {
-  const auto result =
-      test::run({test::program("limbcast-doctor"), "--lcm-url", "file:///tmp/x.log"});
+  const auto result = test::run({test::program("limbcast-doctor"), "--lcm-url", "memq://"});
   EXPECT_EQ(result.exit_code, kWrongUsage);
   EXPECT_THAT(result.output, HasSubstr("is no multicast URL"));
 }

@@ -181,7 +181,7 @@ TEST(EvaluateProgram, SaysThatItsReportCouldNotBeWritten) {
   std::ifstream err(folder / "err");
   std::string line;
   std::getline(err, line);
-  EXPECT_EQ(line, "limbcast-evaluate: cannot write to stdout");
+  EXPECT_EQ(line, "limbcast-evaluate: cannot write to stdout (No space left on device)");
 }
 
 TEST(EvaluateProgram, WritesJsonBehindTheReportWhereBothGoToStdout) {

@@ -105,6 +105,23 @@ TEST_F(LaserScannerProgram, EndsWithCode2OnInputThatCannotBeUsed) {
               HasSubstr("'near-limit-m' is 3, must be below 'far-limit-m', 3"));
 }
 
+TEST_F(LaserScannerProgram, RefusesAStartTimeForWhatHasTimesOfItsOwn) {
+  const std::string packets = folder_ + "/a.pcap", timestamps = folder_ + "/timestamps.csv";
+  write_floor(folder_ + "/a.bin");
+  std::ofstream(packets) << "packets";
+  std::ofstream(timestamps) << "name,utime\na,5\n";
+  for (const auto& [source, teller] :
+       {std::pair(folder_, timestamps), std::pair(packets, packets),
+        std::pair(std::string("velodyne:0"), std::string("velodyne:0"))}) {
+    const RunResult result = write_log({"--source", source, "--start-time-s", "7"});
+    EXPECT_EQ(result.exit_code, kWrongInput);
+    EXPECT_EQ(result.output, "limbcast-laser-scanner: " + teller +
+                                 ": tells the times of the frames; leave out start-time-s\n");
+  }
+  EXPECT_EQ(write_log({"--source", folder_ + "/a.bin", "--start-time-s", "7"}).exit_code, 0);
+  EXPECT_EQ(first_cloud().stamp.utime, 7'000'000);
+}
+
 TEST_F(LaserScannerProgram, RefusesAnOptionOfLiveScannersForARecordingUnlessTheRobotsFileTellsIt) {
   write_floor(folder_ + "/a.bin");
   for (const std::string& recording : {folder_, folder_ + "/a.bin"}) {

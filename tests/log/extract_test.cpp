@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <limbcast/stereo_images_t.hpp>
 
 #include "common/config/options.hpp"
+#include "common/config/output_file.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/pose_json/pose_lines.hpp"
@@ -175,13 +179,18 @@ TEST_F(Extract, ThatIsInterruptedIsNoSuccess) {
   EXPECT_NO_THROW(extract(options(in, Extracted::kImages))) << "it may be done again";
 }
 
-TEST_F(Extract, ThatIsToldToEndAfterItsLastFrameIsWhole) {
+/// A log of one frame of poses, whose line has more than 10 kB.
+void write_crowd(const std::string& path) {
   BodyPoses crowd;
   crowd.stamp.sensor = "front";
   crowd.persons.resize(100);
-  lcm_io::LogWriter log(log_);
+  lcm_io::LogWriter log(path);
   log.write(kBegin, "BODY_POSES", lcm_io::to_message(crowd));
   log.close();
+}
+
+TEST_F(Extract, ThatIsToldToEndAfterItsLastFrameIsWhole) {
+  write_crowd(log_);
   std::filesystem::create_directory(out_);
   EXPECT_EXIT(run_interrupted_by_last_output(out_ + "/BODY_POSES.jsonl",
                                              [this] { extract(options(log_, Extracted::kPoses)); }),
@@ -198,6 +207,40 @@ TEST_F(Extract, RefusesAFolderThatHoldsARecording) {
             out_ + ": holds a recording already; choose another folder or delete this one");
   EXPECT_EQ(bytes_of(out_ + "/timestamps.csv").size(), 4U);
   EXPECT_EQ(bytes_of(out_ + "/calibration.yml"), calibration);
+}
+
+TEST_F(Extract, RefusesAFolderThatAnotherProcessExtractsInto) {
+  // Neither has written timestamps.csv yet, which makes the folder a recording.
+  std::filesystem::create_directory(out_);
+  const config::FolderLock other(out_);
+  EXPECT_EQ(test::error_of<config::UsageError>([&] {
+              extract(options(test::repository_file("logs/nobody.log"), Extracted::kImages));
+            }),
+            out_ + ": is being written by another process; choose another folder");
+  EXPECT_TRUE(std::filesystem::is_empty(out_));
+}
+
+TEST_F(Extract, OfPosesRefusesAFileThatAnotherProcessWrites) {
+  write_ten_frames(log_);
+  std::filesystem::create_directory(out_);
+  const std::string unfinished = out_ + "/BODY_POSES.jsonl.unfinished";
+  const lcm_io::FileLock other(unfinished);
+  EXPECT_EQ(test::error_of<config::UsageError>([&] { extract(options(log_, Extracted::kPoses)); }),
+            unfinished + ": is being written by another process; choose another file");
+}
+
+TEST_F(Extract, OfPosesSaysThatTheDiskIsFull) {
+  write_crowd(log_);
+  const auto extract_on_a_full_disk = [this] {
+    const rlimit limit{10'000, 10'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+    run_and_exit([this] { extract(options(log_, Extracted::kPoses)); });
+  };
+  EXPECT_EXIT(extract_on_a_full_disk(), ::testing::ExitedWithCode(1),
+              "log: " + out_ +
+                  "/BODY_POSES.jsonl.unfinished: cannot be written \\(File too large\\); make room "
+                  "or choose another folder\n");
 }
 
 TEST_F(Extract, AsksForAFolderWhereAFileIsGiven) {

@@ -85,6 +85,13 @@ TEST_F(FolderTest, AFolderThatHoldsARecordingIsRefusedAndStaysAsItIs) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "calibration.yml"));
 }
 
+TEST_F(FolderTest, AFolderThatAnotherProcessWritesIsRefused) {
+  const FrameFolder other(folder_.path(), SimulatorParams{});
+  std::filesystem::remove(folder_ / "timestamps.csv");  // as before the other one has made it
+  EXPECT_EQ(test::error_of<config::UsageError>([&] { write_frames(SensorKind::kLaser, 1); }),
+            folder_.path() + ": is being written by another process; choose another folder");
+}
+
 TEST_F(FolderTest, AFolderThatHoldsOtherThingsIsUsed) {
   folder_.write("notes.txt", "of the set");
   EXPECT_NO_THROW(write_frames(SensorKind::kLaser, 1));

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <sstream>
+
+#include "common/config/options.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::simulate {
 namespace {
@@ -77,6 +81,16 @@ TEST(Report, NamesTheProgramThatIsMissing) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("/nowhere/limbcast-replay"));
   }
+}
+
+TEST(Report, NamesThePlaceWhereNoTemporaryFolderCanBeMade) {
+  const char* usual = std::getenv("TMPDIR");
+  const std::string before = usual != nullptr ? usual : "/tmp";
+  setenv("TMPDIR", "/none", 1);
+  EXPECT_EQ(test::error_of<config::UsageError>([] { make_report({}, {}, "", 1); }),
+            "/none: no temporary folder can be made there (No such file or directory); set TMPDIR "
+            "to another");
+  setenv("TMPDIR", before.c_str(), 1);
 }
 
 }  // namespace

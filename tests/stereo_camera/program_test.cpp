@@ -121,6 +121,31 @@ TEST_F(StereoCameraProgram, RefusesOptionsOfCamerasForARecording) {
   }
 }
 
+TEST_F(StereoCameraProgram, RefusesAStartTimeForWhatHasTimesOfItsOwn) {
+  write_pairs(folder_, 1, 100'000);
+  const std::string log = repository_file("logs/nobody.log"), camera = "/dev/video987";
+  for (const auto& [source, teller] : {std::pair(folder_, folder_ + "/timestamps.csv"),
+                                       std::pair(log, log), std::pair(camera, camera)}) {
+    const RunResult result = write_log({"--source", source, "--start-time-s", "7"});
+    EXPECT_EQ(result.exit_code, kWrongInput);
+    EXPECT_EQ(result.output, "limbcast-stereo-camera: " + teller +
+                                 ": tells the times of the frames; leave out start-time-s\n");
+  }
+}
+
+TEST_F(StereoCameraProgram, TakesAStartTimeOfTheRobotsFileWhereNothingElseTellsTimes) {
+  write_pairs(folder_, 1, 100'000);
+  write_text(folder_ + "/robot.conf", "[stereo_camera]\nstart-time-s = 7\n");
+  const auto start_utime = [this] {
+    const RunResult result = write_log({"--source", folder_, "--config", folder_ + "/robot.conf"});
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return events_of(log_).at(0).utime;
+  };
+  EXPECT_EQ(start_utime(), 1'000'000'000);
+  std::filesystem::remove(folder_ + "/timestamps.csv");
+  EXPECT_EQ(start_utime(), 7'000'000);
+}
+
 TEST_F(StereoCameraProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecording) {
   write_pairs(folder_, 1, 100'000);
   const std::string config = folder_ + "/robot.conf";

@@ -129,6 +129,23 @@ TEST(ViewerProgram, FailsWhereTheDiskTakesOnlyAPartOfTheVideo) {
   }
 }
 
+TEST(ViewerProgram, FailsInOneLineWhereTheDiskTakesNothingOfTheVideo) {
+  const TemporaryFolder folder;
+  write_log(folder / "out.log", 2, true);
+  for (const std::string name : {"out.avi", "out.mp4"}) {
+    // What the program says goes to a pipe, as files take no byte.
+    const auto run = test::run(
+        {"/bin/sh", "-c",
+         R"(((trap '' XFSZ; ulimit -f 0; exec "$@") 2>&1; echo "exit code $?") | cat)", "sh",
+         test::program("limbcast-viewer"), folder / "out.log", "--video", folder / name});
+    EXPECT_THAT(run.output,
+                ::testing::MatchesRegex("limbcast-viewer: " + folder / name +
+                                        ": cannot be written[^\n]*; is the disk full\\?\n"
+                                        "exit code 1\n"));
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+}
+
 TEST(ViewerProgram, FailsWhereItIsInterrupted) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", 2000, true);

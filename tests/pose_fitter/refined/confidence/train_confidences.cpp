@@ -20,9 +20,9 @@
 #include "modules/evaluate/evaluation.hpp"
 #include "modules/pose_fitter/refined/confidence/assessment.hpp"
 #include "modules/pose_fitter/refined/confidence/confidence.hpp"
-#include "tests/pose_fitter/fitted_frames.hpp"
-#include "tests/pose_fitter/logistic_regression.hpp"
-#include "tests/pose_fitter/reliability.hpp"
+#include "tests/pose_fitter/refined/confidence/fitted_frames.hpp"
+#include "tests/pose_fitter/refined/confidence/logistic_regression.hpp"
+#include "tests/pose_fitter/refined/confidence/reliability.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/pose_fitter/tree_boosting.hpp"
+#include "tests/pose_fitter/refined/confidence/tree_boosting.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "modules/pose_fitter/refined/search/solver.hpp"
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "modules/pose_fitter/refined/cost/cost.hpp"
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {

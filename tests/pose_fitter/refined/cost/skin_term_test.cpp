@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {

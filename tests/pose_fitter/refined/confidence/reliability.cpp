@@ -1,4 +1,4 @@
-#include "tests/pose_fitter/reliability.hpp"
+#include "tests/pose_fitter/refined/confidence/reliability.hpp"
 
 #include <cstdio>
 #include <iterator>

@@ -12,7 +12,7 @@
 #include "modules/pose_fitter/refined/confidence/evidence.hpp"
 #include "modules/pose_fitter/refined/links_and_angles.hpp"
 #include "modules/pose_fitter/refined/search/pose_search.hpp"
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

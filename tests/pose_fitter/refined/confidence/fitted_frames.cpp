@@ -1,4 +1,4 @@
-#include "tests/pose_fitter/fitted_frames.hpp"
+#include "tests/pose_fitter/refined/confidence/fitted_frames.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -2,7 +2,7 @@
 
 #include "modules/pose_fitter/refined/confidence/assessment.hpp"
 #include "modules/pose_fitter/refined/confidence/confidence.hpp"
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "modules/pose_fitter/refined/search/pose_search.hpp"
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

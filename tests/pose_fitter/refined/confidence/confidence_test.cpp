@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "modules/pose_fitter/refined/confidence/assessment.hpp"
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {

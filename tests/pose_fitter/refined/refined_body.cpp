@@ -1,4 +1,4 @@
-#include "tests/pose_fitter/refined_body.hpp"
+#include "tests/pose_fitter/refined/refined_body.hpp"
 
 #include <algorithm>
 #include <cmath>

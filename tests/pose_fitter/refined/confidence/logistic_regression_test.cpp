@@ -1,4 +1,4 @@
-#include "tests/pose_fitter/logistic_regression.hpp"
+#include "tests/pose_fitter/refined/confidence/logistic_regression.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "modules/pose_fitter/refined/confidence/confidence.hpp"
-#include "tests/pose_fitter/fitted_frames.hpp"
-#include "tests/pose_fitter/reliability.hpp"
-#include "tests/pose_fitter/tree_boosting.hpp"
+#include "tests/pose_fitter/refined/confidence/fitted_frames.hpp"
+#include "tests/pose_fitter/refined/confidence/reliability.hpp"
+#include "tests/pose_fitter/refined/confidence/tree_boosting.hpp"
 
 namespace {
 
