@@ -70,13 +70,16 @@ void make_output_folder(const std::string& option, const std::string& path) {
   throw UsageError(path + ": cannot be made (" + reason.message() + "); choose another " + option);
 }
 
-FolderLock::FolderLock(const std::string& path)
-    : descriptor_(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+OutputLock::OutputLock(int descriptor, const std::string& path, const std::string& kind)
+    : descriptor_(descriptor) {
   if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
-  throw UsageError(path + ": is being written by another process; choose another folder");
+  throw UsageError(path + ": is being written by another process; choose another " + kind);
 }
 
-FolderLock::~FolderLock() { close(descriptor_); }
+OutputLock::~OutputLock() { close(descriptor_); }
+
+FolderLock::FolderLock(const std::string& path)
+    : OutputLock(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), path, "folder") {}
 
 }  // namespace limbcast::config

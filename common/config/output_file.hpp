@@ -24,17 +24,27 @@ std::runtime_error cannot_write_to_stdout();
 /// that is not possible.
 void make_output_folder(const std::string& option, const std::string& path);
 
-/// Keeps a folder from other processes that lock it too, while it lives.
-class FolderLock {
+/// Keeps what is written from other processes that lock it too, while it lives.
+class OutputLock {
  public:
+  ~OutputLock();
+  OutputLock(const OutputLock&) = delete;
+  OutputLock& operator=(const OutputLock&) = delete;
+
+ protected:
+  /// Of a file that was opened, closed at the end; `kind`: what the user may choose another of.
   /// Throws UsageError where another process holds it. File systems without locks go without.
-  explicit FolderLock(const std::string& path);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
+  OutputLock(int descriptor, const std::string& path, const std::string& kind);
 
  private:
   int descriptor_;
+};
+
+/// That of a folder.
+class FolderLock : public OutputLock {
+ public:
+  /// Throws UsageError where another process holds it.
+  explicit FolderLock(const std::string& path);
 };
 
 }  // namespace limbcast::config

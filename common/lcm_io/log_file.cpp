@@ -1,8 +1,6 @@
 #include "common/lcm_io/log_file.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -56,6 +54,12 @@ void check_is_log(const std::string& path) {
   throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
 }
 
+int open_to_write(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (descriptor < 0) refuse_to_write(path);
+  return descriptor;
+}
+
 }  // namespace
 
 LogReader::LogReader(const std::string& path) {
@@ -95,16 +99,7 @@ void LogReader::seek(std::int64_t position_bytes) {
 }
 
 // A pipe that nobody reads fails at once, where it would be waited for without O_NONBLOCK.
-FileLock::FileLock(const std::string& path)
-    : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666)) {
-  if (descriptor_ < 0) refuse_to_write(path);
-  // File systems without locks go without.
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(descriptor_);
-  throw config::UsageError(path + ": is being written by another process; choose another file");
-}
-
-FileLock::~FileLock() { ::close(descriptor_); }
+FileLock::FileLock(const std::string& path) : OutputLock(open_to_write(path), path, "file") {}
 
 LogWriter::LogWriter(const std::string& path)
     : path_(path), lock_(path), log_(lcm_eventlog_create(path.c_str(), "w")) {

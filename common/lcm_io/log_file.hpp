@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/config/output_file.hpp"
+
 namespace limbcast::lcm_io {
 
 /// One message of an LCM log.
@@ -47,17 +49,11 @@ class LogReader {
 
 /// Keeps a file that is about to be written from other processes that lock it too, as LogWriter
 /// does.
-class FileLock {
+class FileLock : public config::OutputLock {
  public:
   /// Makes the file where there is none and leaves what is in it. Throws config::UsageError where
   /// it cannot be written or another process writes it.
   explicit FileLock(const std::string& path);
-  ~FileLock();
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-
- private:
-  int descriptor_;
 };
 
 /// Writes an LCM log. What was written stays readable when the program ends early.
