@@ -130,7 +130,8 @@ void Chain::from_images(const LogEvent& event, const Reconstructor& stereo,
     const auto images = decode<stereo_images_t>(event.data);
     if (stereo == nullptr)
       throw std::runtime_error("no calibration of stereo camera '" + images.stamp.sensor + "' on " +
-                               options_.reconstructor.stereo_calibration_channel);
+                               options_.reconstructor.stereo_calibration_channel +
+                               "; log that channel beside the images");
     cloud = reconstructor::Stage::process(*stereo, images);
   }
   result.events.push_back(to_event(event.utime, options_.reconstructor.point_cloud_channel, cloud));

@@ -152,7 +152,9 @@ TEST_F(ReplayProgram, SaysThatTheCalibrationIsMissing) {
   }
   const auto result = replay({write("bare.log", bare), path("out.log")});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.output, HasSubstr("no calibration of stereo camera 'stereo'"));
+  EXPECT_THAT(result.output,
+              HasSubstr("no calibration of stereo camera 'stereo' on STEREO_CALIBRATION; log that "
+                        "channel beside the images"));
   EXPECT_TRUE(same(events_of(path("out.log")), bare));
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -7,6 +10,7 @@
 
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/recording.hpp"
+#include "common/config/options.hpp"
 #include "modules/simulate/frame_folder.hpp"
 #include "modules/simulate/options.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -90,6 +94,17 @@ TEST_F(FolderTest, AFolderThatAnotherProcessWritesIsRefused) {
   std::filesystem::remove(folder_ / "timestamps.csv");  // as before the other one has made it
   EXPECT_EQ(test::error_of<config::UsageError>([&] { write_frames(SensorKind::kLaser, 1); }),
             folder_.path() + ": is being written by another process; choose another folder");
+}
+
+TEST_F(FolderTest, AFolderOnAFullDiskHoldsNoRecording) {
+  const auto make_folder_on_a_full_disk = [this] {
+    const rlimit limit{8, 8};  // bytes of a file, less than a line
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+    std::exit(config::run_program("simulate", [this] { write_frames(SensorKind::kLaser, 0); }));
+  };
+  EXPECT_EXIT(make_folder_on_a_full_disk(), ::testing::ExitedWithCode(1), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "timestamps.csv"));
 }
 
 TEST_F(FolderTest, AFolderThatHoldsOtherThingsIsUsed) {
