@@ -54,6 +54,7 @@ void check_is_log(const std::string& path) {
   throw config::UsageError(path + ": cannot be written (" + std::strerror(errno) + ")");
 }
 
+// A pipe that nobody reads fails at once, where it would be waited for without O_NONBLOCK.
 int open_to_write(const std::string& path) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   if (descriptor < 0) refuse_to_write(path);
@@ -98,7 +99,6 @@ void LogReader::seek(std::int64_t position_bytes) {
   at_end_ = false;
 }
 
-// A pipe that nobody reads fails at once, where it would be waited for without O_NONBLOCK.
 FileLock::FileLock(const std::string& path) : OutputLock(open_to_write(path), path, "file") {}
 
 LogWriter::LogWriter(const std::string& path)

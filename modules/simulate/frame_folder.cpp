@@ -60,16 +60,9 @@ FrameFolder::FrameFolder(const std::string& folder, const SimulatorParams& param
     write_stereo_calibration(calibration, stereo_calibration(params));
   else if (params.sensor != SensorKind::kLaser)
     write_depth_calibration(calibration, depth_calibration(params));
-  timestamps_.open(timestamps);
-  if (!timestamps_)
-    throw config::UsageError(timestamps + ": cannot be written (" + std::strerror(errno) +
-                             "); choose another --output");
-  try {
-    write_timestamp("name,utime,down_x,down_y,down_z\n");
-  } catch (...) {
-    std::filesystem::remove(timestamps, error);  // a folder that has one holds a recording
-    throw;
-  }
+  // Whole or not at all: a folder that has one holds a recording.
+  write_whole_file(timestamps, "name,utime,down_x,down_y,down_z\n");
+  timestamps_.open(timestamps, std::ios::app);
 }
 
 std::string FrameFolder::path(const SimulatedFrame& frame, const std::string& ending) const {
@@ -100,10 +93,6 @@ void FrameFolder::write(const SimulatedFrame& frame) {
   char line[160];
   std::snprintf(line, sizeof(line), "%s,%lld,%.5f,%.5f,%.5f\n", frame.scenario.name.c_str(),
                 static_cast<long long>(frame.scenario.utime), down.x(), down.y(), down.z());
-  write_timestamp(line);
-}
-
-void FrameFolder::write_timestamp(const char* line) {
   timestamps_ << line << std::flush;
   if (!timestamps_)
     throw std::runtime_error(folder_ + "/timestamps.csv: cannot be written (" +

@@ -27,8 +27,6 @@ class FrameFolder {
 
  private:
   std::string path(const SimulatedFrame& frame, const std::string& ending) const;
-  /// A whole line of timestamps.csv.
-  void write_timestamp(const char* line);
 
   std::string folder_;
   SimulatorParams params_;
