@@ -57,11 +57,14 @@ bool is_device(const std::string& path) {
   return fs::is_other(path, unreachable) || path.rfind("/dev/", 0) == 0;
 }
 
-/// The file that a link leads to, where it leads to one.
+/// The file that a link leads to or, where nothing stands there yet, is to be written to.
 fs::path end_of_links(const fs::path& path) {
-  std::error_code leads_nowhere;
+  std::error_code leads_nowhere, is_no_link;
   const fs::path end = fs::canonical(path, leads_nowhere);
-  return leads_nowhere ? path : end;
+  if (!leads_nowhere) return end;
+  const bool is_a_ring = leads_nowhere == std::errc::too_many_symbolic_link_levels;
+  const fs::path next = is_a_ring ? fs::path() : fs::read_symlink(path, is_no_link);
+  return next.empty() ? path : end_of_links(path.parent_path() / next);
 }
 
 std::string unfinished_beside(const fs::path& path, const std::string& ending = "") {

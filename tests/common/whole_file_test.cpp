@@ -39,6 +39,19 @@ TEST(WholeFile, TakesThePlaceOfTheOneBefore) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
+TEST(WholeFile, GoesWhereALinkLeadsThoughNothingStandsThereYet) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "disk");
+  std::filesystem::create_symlink("disk/link", folder / "report.txt");
+  std::filesystem::create_symlink("today.txt", folder / "disk/link");
+  write_whole_file(folder / "report.txt", std::string("text"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "report.txt"));
+  EXPECT_EQ(text_of(folder / "disk/today.txt"), "text");
+  std::filesystem::create_symlink("ring", folder / "ring");
+  write_whole_file(folder / "ring", std::string("text"));
+  EXPECT_EQ(text_of(folder / "ring"), "text");
+}
+
 TEST(WholeFile, GoesToWhatTheShellHasOpened) {
   const TemporaryFolder folder;
   const std::string path = folder.write("out.txt", "");

@@ -194,6 +194,19 @@ TEST_F(DepthCameraProgram, PassesOverOptionsOfCamerasInTheRobotsFileForARecordin
   EXPECT_EQ(result.exit_code, 0) << result.output;
 }
 
+TEST_F(DepthCameraProgram, RefusesAStartTimeForWhatHasTimesOfItsOwn) {
+  EXPECT_EQ(write_log({"--source", folder_, "--start-time-s", "7"}).exit_code, 0);
+  EXPECT_EQ(events_of(log_).at(0).utime, 7'000'000);
+  write_text(folder_ + "/timestamps.csv", "frame,utime\na,1000000000\n");
+  for (const std::string option : {"--source", "--source-depth"})
+    EXPECT_EQ(error({option, "/dev/video987", "--start-time-s", "7"}),
+              "limbcast-depth-camera: /dev/video987: tells the times of the frames; leave out "
+              "start-time-s\n");
+  EXPECT_EQ(error({"--source", folder_, "--start-time-s", "7"}),
+            "limbcast-depth-camera: " + folder_ +
+                "/timestamps.csv: tells the times of the frames; leave out start-time-s\n");
+}
+
 TEST_F(DepthCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(error({"--source", "/nowhere"}), HasSubstr("/nowhere: does not exist"));
   EXPECT_THAT(error({"--source", "/dev/video0"}), HasSubstr("--source-depth"));
