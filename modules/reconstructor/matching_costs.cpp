@@ -47,12 +47,13 @@ struct BitCounter {
 template <class Counter>
 LIMBCAST_INLINE inline void count_differing_bits(const PlaneRows& left,
                                                  const PlaneRows& right_mirrored, int width,
-                                                 const Byte* least, const Byte* even_least,
-                                                 int num_registers, Byte* __restrict costs) {
+                                                 const Byte* background, const Byte* least,
+                                                 const Byte* background_least, int num_registers,
+                                                 Byte* __restrict costs) {
   with_size(num_registers, [&](auto size) LIMBCAST_INLINE {
     for (int u = 0; u < width; ++u) {
       const Byte l0 = left[0][u], l1 = left[1][u], l2 = left[2][u];
-      const Byte* __restrict least_here = (l0 | l1 | l2) == 0 ? even_least : least;
+      const Byte* __restrict least_here = background[u] ? background_least : least;
       const int match = width - 1 - u;
       const Byte* __restrict r0 = right_mirrored[0] + match;
       const Byte* __restrict r1 = right_mirrored[1] + match;
@@ -67,30 +68,33 @@ LIMBCAST_INLINE inline void count_differing_bits(const PlaneRows& left,
 }
 
 LIMBCAST_SIMD void count_by_adding(const PlaneRows& left, const PlaneRows& right_mirrored,
-                                   int width, const Byte* least, const Byte* even_least,
-                                   int num_registers, Byte* costs) {
-  count_differing_bits<Adder>(left, right_mirrored, width, least, even_least, num_registers, costs);
+                                   int width, const Byte* background, const Byte* least,
+                                   const Byte* background_least, int num_registers, Byte* costs) {
+  count_differing_bits<Adder>(left, right_mirrored, width, background, least, background_least,
+                              num_registers, costs);
 }
 
 LIMBCAST_BIT_COUNTING_SIMD void count_by_instruction(const PlaneRows& left,
                                                      const PlaneRows& right_mirrored, int width,
-                                                     const Byte* least, const Byte* even_least,
+                                                     const Byte* background, const Byte* least,
+                                                     const Byte* background_least,
                                                      int num_registers, Byte* costs) {
-  count_differing_bits<BitCounter>(left, right_mirrored, width, least, even_least, num_registers,
-                                   costs);
+  count_differing_bits<BitCounter>(left, right_mirrored, width, background, least, background_least,
+                                   num_registers, costs);
 }
 
 }  // namespace
 
 MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities,
-                             int even_px_per_bit)
+                             const EvenBackgroundParams& background)
     : left_(census_of(left)),
       right_mirrored_(census_of(right)),
+      background_(even_background(left, left_, background)),
       least_(cv::alignSize(num_disparities, kCostsInARegister), kNoMatch),
-      even_least_(least_) {
+      background_least_(least_) {
   std::fill_n(least_.begin(), num_disparities, Byte{0});
   for (int d = 0; d < num_disparities; ++d)
-    even_least_[d] = static_cast<Byte>(std::min(d / even_px_per_bit, Census::kNumBits));
+    background_least_[d] = static_cast<Byte>(std::min(d / background.px_per_bit, Census::kNumBits));
   for (cv::Mat1b& plane : right_mirrored_.planes) {
     cv::flip(plane, plane, 1);
     cv::copyMakeBorder(plane, plane, 0, 0, 0, size(), cv::BORDER_REPLICATE);
@@ -99,8 +103,8 @@ MatchingCosts::MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int 
 
 void MatchingCosts::compute_row(int v, Byte* costs) const {
   static const auto count = counts_bits_of_vectors() ? count_by_instruction : count_by_adding;
-  count(rows_of(left_, v), rows_of(right_mirrored_, v), left_.planes[0].cols, least_.data(),
-        even_least_.data(), size() / kCostsInARegister, costs);
+  count(rows_of(left_, v), rows_of(right_mirrored_, v), left_.planes[0].cols, background_[v],
+        least_.data(), background_least_.data(), size() / kCostsInARegister, costs);
 }
 
 }  // namespace limbcast::reconstructor

@@ -6,6 +6,7 @@
 
 #include "modules/reconstructor/byte_lanes.hpp"
 #include "modules/reconstructor/census.hpp"
+#include "modules/reconstructor/even_background.hpp"
 
 namespace limbcast::reconstructor {
 
@@ -16,9 +17,8 @@ constexpr std::uint8_t kNoMatch = 127;
 /// Costs of matching pixels of the left image with pixels of the right one.
 class MatchingCosts {
  public:
-  /// `even_px_per_bit`: see SemiGlobalParams.
   MatchingCosts(const cv::Mat1b& left, const cv::Mat1b& right, int num_disparities,
-                int even_px_per_bit);
+                const EvenBackgroundParams& background);
   /// Bytes of a pixel's costs.
   int size() const { return static_cast<int>(least_.size()); }
   /// Differing bits of the census of each pixel u of row v and the right image's pixel u - d, at
@@ -27,8 +27,9 @@ class MatchingCosts {
 
  private:
   Census left_, right_mirrored_;  ///< mirrored, so that disparities grow with the address
-  /// What the costs are at least, and where the left image is even.
-  std::vector<std::uint8_t> least_, even_least_;
+  cv::Mat1b background_;          ///< 255 where the left image is even and shows background
+  /// What the costs are at least, and there.
+  std::vector<std::uint8_t> least_, background_least_;
 };
 
 }  // namespace limbcast::reconstructor

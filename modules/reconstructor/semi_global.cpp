@@ -183,7 +183,7 @@ class StripMatcher {
       : params_(params),
         width_(left.cols),
         height_(left.rows),
-        costs_(left, right, params.num_disparities, params.even_px_per_bit),
+        costs_(left, right, params.num_disparities, params.even_background),
         vertical_steps_(large_step_costs(left, params)),
         horizontal_steps_(large_step_costs(left.t(), params).t()),
         shape_{width_, costs_.size() / kCostsInARegister,

@@ -2,6 +2,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "modules/reconstructor/even_background.hpp"
+
 namespace limbcast::reconstructor {
 
 /// Most disparities that can be searched.
@@ -18,13 +20,8 @@ struct SemiGlobalParams {
   int large_step_cost = 80;
   /// Where the brightness of neighbours differs by more than this [grey levels], a large step is
   /// cheaper in proportion: surfaces end where the image has an edge.
-  int even_grey_levels = 5;
-  /// Where the image is even (no census bit) every disparity fits alike, and what is beside a
-  /// person would get the person's. A surface that hides none is behind, so there a disparity costs
-  /// at least one census bit for every so many [px]. Fewer: silhouettes shrink (precision 0.87
-  /// without it, 0.89 with 8, 0.90 with 4), and even clothes get the background's disparity (recall
-  /// 0.986, 0.982, 0.972).
-  int even_px_per_bit = 8;
+  int even_grey_levels = 4;
+  EvenBackgroundParams even_background;
   /// Left-to-right and right-to-left disparities may differ by this much [px].
   int max_left_right_difference_px = 1;
 };

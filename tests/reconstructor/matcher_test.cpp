@@ -79,25 +79,63 @@ TEST(Match, KeepsTheOutlineOfASquareBeforeAWall) {
   EXPECT_NEAR(cv::countNonZero(is_near), 159 * 159, 0.05 * 159 * 159);
 }
 
-TEST(Match, TakesTheEvenWallBesideASquareForTheWall) {
-  // Only the wall's margins have a texture; the darker square stands before its bare middle.
-  const test::Texture texture;
-  const cv::Rect square(240, 160, 160, 160), bare(120, 80, 400, 320);
-  const auto wall = [&](int u, int v) { return bare.contains({u, v}) ? 128.0 : texture(u, v); };
+constexpr int kThingDisparityPx = 40, kWallDisparityPx = 10;  ///< disparities
+
+/// A thing before a wall; told where it is in the left image and how bright each is there.
+template <class Shape, class Thing, class Wall>
+RectifiedPair thing_before_wall(const Shape& is_thing, const Thing& on_thing, const Wall& on_wall) {
   RectifiedPair pair{cv::Mat1b(480, 640), cv::Mat1b(480, 640)};
   for (int v = 0; v < 480; ++v) {
     for (int u = 0; u < 640; ++u) {
-      const auto seen_at = [&](int square_px, int wall_px) {
-        return cv::saturate_cast<uchar>(square.contains({u + square_px, v})
-                                            ? 0.5 * texture(u + square_px, v)
-                                            : wall(u + wall_px, v));
+      const auto seen_at = [&](int thing_px, int wall_px) {
+        return cv::saturate_cast<uchar>(is_thing(cv::Point(u + thing_px, v))
+                                            ? on_thing(u + thing_px, v)
+                                            : on_wall(u + wall_px, v));
       };
       pair.left.at<uchar>(v, u) = seen_at(0, 0);
-      pair.right.at<uchar>(v, u) = seen_at(40, 10);
+      pair.right.at<uchar>(v, u) = seen_at(kThingDisparityPx, kWallDisparityPx);
     }
   }
+  return pair;
+}
+
+double textured(int u, int v) {
+  static const test::Texture kTexture;
+  return kTexture(u, v);
+}
+
+double dark_texture(int u, int v) { return 0.5 * textured(u, v); }
+
+/// Only its margins have a texture.
+double bare_wall(int u, int v) {
+  return cv::Rect(120, 80, 400, 320).contains({u, v}) ? 128.0 : textured(u, v);
+}
+
+TEST(Match, TakesTheEvenWallBesideASquareForTheWall) {
+  const cv::Rect square(240, 160, 160, 160);
+  const RectifiedPair pair = thing_before_wall(
+      [&](cv::Point pixel) { return square.contains(pixel); }, dark_texture, bare_wall);
   const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
   EXPECT_NEAR(cv::countNonZero(found > 30.0F), square.area(), 0.05 * square.area());
+}
+
+TEST(Match, TakesTheEvenWallBetweenAnArmAndTheTrunkForTheWall) {
+  const cv::Rect body(260, 140, 120, 200), gap(290, 200, 60, 90);
+  const RectifiedPair pair = thing_before_wall(
+      [&](cv::Point pixel) { return body.contains(pixel) && !gap.contains(pixel); }, dark_texture,
+      bare_wall);
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  EXPECT_LT(cv::countNonZero(found(gap) > 30.0F), 0.25 * gap.area());
+}
+
+TEST(Match, LeavesWhatIsEvenWhereItsOutlineIs) {
+  // As a dark suit's leg or sleeve: nothing within it tells how far off it is.
+  const cv::Rect leg(290, 160, 60, 160);
+  const RectifiedPair pair = thing_before_wall([&](cv::Point pixel) { return leg.contains(pixel); },
+                                               [](int, int) { return 12.0; }, textured);
+  const cv::Mat1f found = match(pair.left, pair.right).disparity_px;
+  const cv::Mat1b right_place = cv::abs(found(leg) - 1.0F * kThingDisparityPx) < 1.0F;
+  EXPECT_GT(cv::countNonZero(right_place), 0.95 * leg.area());
 }
 
 TEST(Match, FindsTheDepthOfABarAsThickAsAnArm) {

@@ -61,7 +61,7 @@ struct RefinedParams {
   /// A joint that it takes for hidden, and that a network of colours sees farther from there than
   /// this [m], counts less by up to this share. Tuned on simulated people.
   double image_elsewhere_m = 0.15;
-  double image_elsewhere_doubt = 0.754;
+  double image_elsewhere_doubt = 0.72;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;
