@@ -17,7 +17,7 @@ struct SemiGlobalParams {
   /// Cost of a step by one disparity between neighbours [census bits].
   int small_step_cost = 8;
   /// Cost of any larger step [census bits], where the image is even.
-  int large_step_cost = 80;
+  int large_step_cost = 81;
   /// Where the brightness of neighbours differs by more than this [grey levels], a large step is
   /// cheaper in proportion: surfaces end where the image has an edge.
   int even_grey_levels = 4;

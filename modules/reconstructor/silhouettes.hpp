@@ -12,7 +12,7 @@ struct SilhouetteParams {
   int max_seam_px = 6;
   /// Weakest edge that ends a thing [grey levels over 2 px, mean of the channels]: above the
   /// images' noise.
-  float min_edge = 6.7F;
+  float min_edge = 7.0F;
   /// The outermost edge of at least this share of the strongest one nearby is taken: stripes within
   /// a thing may be stronger than its outline.
   float min_edge_share = 0.3F;
@@ -21,7 +21,7 @@ struct SilhouetteParams {
   float max_color_ratio = 0.25F;
   /// Holes up to this width are looked across for what is outside [px]; a hole within one surface
   /// is no outline.
-  int max_hole_px = 40;
+  int max_hole_px = 36;
 };
 
 /// Takes off the seam by which things grow over what is behind them: a window beyond the outline

@@ -8,7 +8,7 @@ struct SpeckleParams {
   /// Groups of at most so many pixels, cut off by steps in disparity, are removed [px].
   int max_size_px = 100;
   /// Step in disparity between neighbours that does not cut yet [px].
-  float max_step_px = 2.0F;
+  float max_step_px = 2.1F;
 };
 
 /// Removes small groups of disparities (0 = none) as cv::filterSpeckles does, in a third of its

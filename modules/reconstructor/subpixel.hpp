@@ -6,12 +6,12 @@ namespace limbcast::reconstructor {
 
 struct SubpixelParams {
   /// Pixels whose disparities differ by less are one surface [px].
-  float same_surface_px = 0.95F;
+  float same_surface_px = 0.965F;
   /// Blur of the images before they are interpolated [px], against their noise.
   double blur_px = 0.7;
   /// Variance of brightness in a window [grey levels^2] at which its own shift and none weigh the
   /// same: that of the images' noise.
-  float noise_variance = 0.35F;
+  float noise_variance = 0.37F;
   /// Where one image is brighter by more than this share, as cameras are that expose each for
   /// itself, the other is made as bright.
   double most_brightness_difference = 0.05;

@@ -146,7 +146,7 @@ struct OverlookedParams {
   /// Lowest log odds and score of the template (0 to 2.48) of a candidate that is asked about, how
   /// far from people who were found and from likelier ones it must be [m], and of how many a frame:
   /// each takes a look of the network.
-  float min_head_odds = -6.0F, min_template_score = 1.8F, min_distance_m = 0.6F,
+  float min_head_odds = -6.0F, min_template_score = 1.6F, min_distance_m = 0.42F,
         separation_m = 0.4F;
   int max_asked = 4;
   /// Lowest log odds of a person, of the network of depths, and how much lower they may be where

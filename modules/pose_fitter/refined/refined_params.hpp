@@ -35,20 +35,20 @@ struct RefinedParams {
   double search_surface_sigma_m = 0.05;
   double arm_search_surface_sigma_m = 0.03;
   /// Residuals beyond this many sigmas stop counting (Geman-McClure). Tuned.
-  double robust_sigmas = 2.05;
+  double robust_sigmas = 2.04;
   /// Cost of a body part outside of the person's silhouette, against the surface and against a part
   /// before the surface that was seen: silhouettes are cut wrongly more often than depths are
   /// measured so. Tuned.
-  double silhouette_weight = 0.485;
+  double silhouette_weight = 0.5061;
   /// Joints against the rays on which the image's networks see them: spread across the ray [m] and
   /// weight against the surface, whose neighbouring points share their errors, of each network;
   /// limit of the robust loss. Tuned.
   std::array<double, 3> image_sigma_m = {0.0407, 0.025, 0.0331};
-  std::array<double, 3> image_weight = {1.23, 2.6, 2.65};
+  std::array<double, 3> image_weight = {1.23, 2.603, 2.537};
   double image_limit_sigmas = 4.0;
   /// How much farther away than the hips each network tells joints to be: weight, and spread [m].
   /// The first tells too rough depths for a weight, the second none. Tuned on simulated people.
-  std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.75};
+  std::array<double, 3> image_depth_weight = {0.0, 0.0, 0.7092};
   double image_depth_sigma_m = 0.049;
   /// A joint counts as this power of how sure its network is that it is in sight: the one that
   /// tells depths is mostly right about hidden joints too. Tuned on simulated people.
@@ -57,11 +57,11 @@ struct RefinedParams {
   /// believed [m], and the power of their ratio by which a mark's spreads above grow. Tuned on
   /// simulated people.
   double usual_mark_spread_m = 0.02, least_mark_spread_m = 0.0065;
-  double mark_spread_exponent = 0.853;
+  double mark_spread_exponent = 0.8295;
   /// A joint that it takes for hidden, and that a network of colours sees farther from there than
   /// this [m], counts less by up to this share. Tuned on simulated people.
   double image_elsewhere_m = 0.15;
-  double image_elsewhere_doubt = 0.72;
+  double image_elsewhere_doubt = 0.759;
   /// What a body costs whose left a network takes for right, as each does of one person in twenty.
   /// Tuned.
   double image_swap_cost = 6.0;

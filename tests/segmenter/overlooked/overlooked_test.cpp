@@ -64,6 +64,12 @@ TEST_F(RefusedHeads, AreNotAskedAboutBesideAHeadThatWasFound) {
   EXPECT_TRUE(overlooked().empty());
 }
 
+TEST_F(RefusedHeads, AreAskedAboutWhereSomebodyWasFoundShoulderToShoulder) {
+  found_.heads.push_back(head_at(lattice_, kFirst_m + 0.48F, kHead_m));
+  refuse(first_);
+  EXPECT_EQ(overlooked().size(), 1U);
+}
+
 TEST_F(RefusedHeads, AreAskedAboutOnceWhereTwoAreOneFigures) {
   refuse(first_);
   refuse(as_likely(head_at(lattice_, kFirst_m, kHead_m - 0.2F), -4.0F));
@@ -195,6 +201,8 @@ TEST_P(PeopleWhoTouch, AreFoundWhereOneWasTakenForAPartOfTheOther) {
   const Cloud cloud = depth_cloud(scene, frame);
   Params nobody_asked;
   nobody_asked.overlooked.min_merged_odds = 100.0F;
+  // The other way asks about people who stand shoulder to shoulder.
+  nobody_asked.overlooked.min_distance_m = 0.6F;
   EXPECT_EQ(count_found(cloud, frame, nobody_asked), 4);
   EXPECT_EQ(count_found(cloud, frame, {}), 5);
 }
