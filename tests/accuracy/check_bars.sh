@@ -31,20 +31,21 @@ check() {
   done < <(jq -r --arg name "$1" '.[$name] | to_entries[] | [.key, (.value.at_least // "null"), (.value.at_most // "null")] | @tsv' "$bars")
 }
 
-for log in logs/*.log; do
-  name=$(basename "$log")
-  "$bin/limbcast-replay" "$log" "$out/$name.refined.log" "$REPLAY_OPTIONS" --log-level warning
-  "$bin/limbcast-evaluate" "$out/$name.refined.log" --json "$out/$name.refined.json" --log-level error >"$out/$name.txt"
-  check "$name"
-done
+# check_log NAME LOG: the figures of a recording with truth
+check_log() {
+  "$bin/limbcast-replay" "$2" "$out/$1.refined.log" "$REPLAY_OPTIONS" --log-level warning
+  "$bin/limbcast-evaluate" "$out/$1.refined.log" --json "$out/$1.refined.json" --log-level error >"$out/$1.txt"
+  check "$1"
+}
+
 # check_simulated NAME OPTION...: people as limbcast-simulate makes them, so many that one arm or joint is no coin's
 # throw; their bars stand below the figures by what chance does to them.
 check_simulated() {
   "$bin/limbcast-simulate" --log "$out/$1.log" --sensor stereo "${@:2}" --log-level warning
-  "$bin/limbcast-replay" "$out/$1.log" "$out/$1.refined.log" "$REPLAY_OPTIONS" --log-level warning
-  "$bin/limbcast-evaluate" "$out/$1.refined.log" --json "$out/$1.refined.json" --log-level error >"$out/$1.txt"
-  check "$1"
+  check_log "$1" "$out/$1.log"
 }
+
+for log in logs/*.log; do check_log "$(basename "$log")" "$log"; done
 check_simulated simulated_pointing --set pointing --frames 60 --seed 61002 --max-distance-m 4.5
 check_simulated simulated_groups --set multi --frames 60 --seed 61003
 

@@ -3,10 +3,8 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include <iterator>
 #include <string>
 
+#include "tests/support/full_disk.hpp"
 #include "tests/support/rights.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -66,18 +65,11 @@ TEST(WholeFile, GoesToWhatTheShellHasOpened) {
   EXPECT_EQ(text_of(path), "from the shell, from the program, from the shell again");
 }
 
-/// As on a disk that is full after so many bytes.
-void let_files_grow_to(rlim_t bytes) {
-  const rlimit limit{bytes, bytes};
-  setrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
-}
-
 TEST(WholeFile, IsAsItWasWhereTheDiskIsFull) {
   const TemporaryFolder folder;
   const std::string path = folder.write("report.txt", "before");
   const auto tell = [&] {
-    let_files_grow_to(50'000);
+    test::let_files_grow_to(50'000);
     std::fputs(refusal_of(path, std::string(100'000, 'x')).c_str(), stderr);
     std::exit(0);
   };

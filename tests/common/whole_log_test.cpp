@@ -2,14 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
 #include "common/config/options.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::lcm_io {
@@ -71,9 +70,7 @@ TEST_F(WholeLogFile, IsNotMadeWhereNothingIsWritten) {
 
 /// On a disk that is full after a few events.
 [[noreturn]] void fill_disk(const std::string& path) {
-  const rlimit limit{50'000, 50'000};
-  setrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+  test::let_files_grow_to(50'000);
   std::exit(config::run_program("tool", [&] {
     WholeLog log(path);
     for (int i = 0; i < 10; ++i)

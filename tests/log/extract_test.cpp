@@ -3,10 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sys/resource.h>
-
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <limbcast/stereo_images_t.hpp>
 
@@ -17,6 +14,7 @@
 #include "common/pose_json/pose_lines.hpp"
 #include "tests/log/logs.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::logs {
@@ -232,9 +230,7 @@ TEST_F(Extract, OfPosesRefusesAFileThatAnotherProcessWrites) {
 TEST_F(Extract, OfPosesSaysThatTheDiskIsFull) {
   write_crowd(log_);
   const auto extract_on_a_full_disk = [this] {
-    const rlimit limit{10'000, 10'000};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+    test::let_files_grow_to(10'000);
     run_and_exit([this] { extract(options(log_, Extracted::kPoses)); });
   };
   EXPECT_EXIT(extract_on_a_full_disk(), ::testing::ExitedWithCode(1),

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +11,7 @@
 #include "common/config/options.hpp"
 #include "modules/simulate/frame_folder.hpp"
 #include "modules/simulate/options.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::simulate {
@@ -98,9 +97,7 @@ TEST_F(FolderTest, AFolderThatAnotherProcessWritesIsRefused) {
 
 TEST_F(FolderTest, AFolderOnAFullDiskHoldsNoRecording) {
   const auto make_folder_on_a_full_disk = [this] {
-    const rlimit limit{8, 8};  // bytes of a file, less than a line
-    setrlimit(RLIMIT_FSIZE, &limit);
-    std::signal(SIGXFSZ, SIG_IGN);  // NOLINT(cert-err33-c): there is no handler to restore
+    test::let_files_grow_to(8);  // bytes of a file, less than a line
     std::exit(config::run_program("simulate", [this] { write_frames(SensorKind::kLaser, 0); }));
   };
   EXPECT_EXIT(make_folder_on_a_full_disk(), ::testing::ExitedWithCode(1), "");
