@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,50 +14,11 @@
 #include "common/joined.hpp"
 #include "common/median.hpp"
 #include "common/units.hpp"
+#include "modules/calibrate/view_agreement.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-using Pixels = std::vector<std::vector<cv::Point2f>>;
-using Points = std::vector<std::vector<cv::Point3f>>;
-
-struct Lens {
-  cv::Mat K, D;
-  LensUncertainty uncertainty;
-  /// Of the board in each view (Rodrigues vectors; sides of a square).
-  std::vector<cv::Mat> rotations, translations;
-};
-
-/// In sides of a square: OpenCV's solvers miss the lens where a board's points lie closer than some
-/// tenths of a unit.
-cv::Point3f point_in_squares(const Board& board, int id) {
-  return board.point_m(id) / board.square_m;
-}
-
-std::vector<cv::Point3f> points_of(const Board& board, const std::vector<int>& ids) {
-  std::vector<cv::Point3f> points;
-  points.reserve(ids.size());
-  for (const int id : ids) points.push_back(point_in_squares(board, id));
-  return points;
-}
-
-Lens fit_lens(const std::vector<const BoardPoints*>& views, const Board& board,
-              const cv::Size& size) {
-  Points points;
-  Pixels pixels;
-  for (const BoardPoints* view : views) {
-    points.push_back(points_of(board, view->ids));
-    pixels.push_back(view->pixels);
-  }
-  Lens lens;
-  cv::Mat deviations;
-  cv::calibrateCamera(points, pixels, size, lens.K, lens.D, lens.rotations, lens.translations,
-                      deviations, cv::noArray(), cv::noArray());
-  const auto deviation = [&](int i) { return deviations.at<double>(i); };
-  lens.uncertainty = {std::max(deviation(0), deviation(1)), std::max(deviation(2), deviation(3))};
-  return lens;
-}
 
 LensCalibration to_calibration(const Lens& lens, const cv::Size& size) {
   LensCalibration calibration;
@@ -116,28 +75,14 @@ double reprojection_px(const ViewFit& view) {
 }
 double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
 
-struct Lenses {
-  Lens left, right;
-};
-
-Lenses fit_lenses(const std::vector<View>& views, const Board& board, const cv::Size& size) {
-  std::vector<const BoardPoints*> seen_left;
-  std::vector<const BoardPoints*> seen_right;
-  for (const View& view : views) {
-    seen_left.push_back(&view.left);
-    seen_right.push_back(&view.right);
-  }
-  return {fit_lens(seen_left, board, size), fit_lens(seen_right, board, size)};
-}
-
 /// Lenses and pose of the pair, all at once, from the lenses that each camera alone has found.
 StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv::Size& size,
-                   Lenses lenses) {
-  auto& [left, right] = lenses;
+                   const FitParams& params, const Lenses& lenses) {
+  auto [left, right] = lenses;
   std::vector<CommonPoints> common;
-  Points points;
-  Pixels pixels_left;
-  Pixels pixels_right;
+  std::vector<std::vector<cv::Point3f>> points;
+  std::vector<std::vector<cv::Point2f>> pixels_left;
+  std::vector<std::vector<cv::Point2f>> pixels_right;
   for (const View& view : views) {
     common.push_back(common_points(view.left, view.right));
     points.push_back(points_of(board, common.back().ids));
@@ -147,11 +92,10 @@ StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv:
   cv::Mat R;
   cv::Mat T;
   cv::Mat view_errors;
-  constexpr int kIterations = 100;
-  constexpr double kStep = 1e-7;
-  cv::stereoCalibrate(points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R,
-                      T, cv::noArray(), cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS,
-                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kStep});
+  cv::stereoCalibrate(
+      points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R, T,
+      cv::noArray(), cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS,
+      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, params.max_iterations, params.min_change});
 
   StereoFit fit;
   fit.calibration.left = to_calibration(left, size);
@@ -186,174 +130,6 @@ double median_of(const std::vector<ViewFit>& figures, double (*error_px)(const V
 
 double worst_reprojection_px(const ViewFit& view) {
   return std::max(view.reprojection_left_px, view.reprojection_right_px);
-}
-
-/// What one view says of the pair before the lenses are refined by what both cameras see: where the
-/// left image puts the board, in the left camera's frame, and where the right one shows it.
-struct Sighting {
-  std::vector<cv::Point3d> points;
-  std::vector<cv::Point2d> pixels;
-};
-
-std::vector<Sighting> sightings_of(const std::vector<View>& views, const Board& board,
-                                   const Lens& left) {
-  std::vector<Sighting> sightings;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const CommonPoints common = common_points(views[i].left, views[i].right);
-    cv::Matx33d R;
-    cv::Rodrigues(left.rotations[i], R);
-    const cv::Vec3d t(left.translations[i].ptr<double>());
-    Sighting sighting;
-    for (const cv::Point3f& point : points_of(board, common.ids))
-      sighting.points.emplace_back(R * cv::Vec3d(point.x, point.y, point.z) + t);
-    sighting.pixels.assign(common.right.begin(), common.right.end());
-    sightings.push_back(std::move(sighting));
-  }
-  return sightings;
-}
-
-/// From the left camera's frame to the right one's (Rodrigues vector; sides of a square).
-struct PairPose {
-  cv::Mat rotation = cv::Mat::zeros(3, 1, CV_64F), translation = cv::Mat::zeros(3, 1, CV_64F);
-};
-
-/// That with which one view puts the board in the same place by both images.
-PairPose pose_by(const Lenses& lenses, std::size_t view) {
-  cv::Matx33d R;
-  cv::Rodrigues(lenses.left.rotations[view], R);
-  cv::Mat back_rotation;
-  cv::Rodrigues(R.t(), back_rotation);
-  const cv::Mat back_translation = -cv::Mat(R.t()) * lenses.left.translations[view];
-  PairPose pose;
-  cv::composeRT(back_rotation, back_translation, lenses.right.rotations[view],
-                lenses.right.translations[view], pose.rotation, pose.translation);
-  return pose;
-}
-
-std::vector<cv::Point2d> pixels_of(const std::vector<cv::Point3d>& points, const PairPose& pose,
-                                   const Lens& lens) {
-  std::vector<cv::Point2d> pixels;
-  cv::projectPoints(points, pose.rotation, pose.translation, lens.K, lens.D, pixels);
-  return pixels;
-}
-
-/// How the pixels of points change where the board that they are on turns about their middle, about
-/// each axis [px / rad], and moves along each [px / side of a square].
-Eigen::MatrixXd changes_of(const std::vector<cv::Point3d>& points, const PairPose& pose,
-                           const Lens& lens) {
-  constexpr double kStep = 1e-4;
-  const cv::Point3d middle =
-      std::accumulate(points.begin(), points.end(), cv::Point3d()) * (1.0 / points.size());
-  const std::vector<cv::Point2d> before = pixels_of(points, pose, lens);
-  Eigen::MatrixXd changes(2 * points.size(), 6);
-  for (int column = 0; column < changes.cols(); ++column) {
-    cv::Vec3d axis;
-    axis[column % 3] = kStep;
-    std::vector<cv::Point3d> moved;
-    for (const cv::Point3d& point : points)
-      moved.push_back(point +
-                      (column < 3 ? cv::Point3d(axis).cross(point - middle) : cv::Point3d(axis)));
-    const std::vector<cv::Point2d> after = pixels_of(moved, pose, lens);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const cv::Point2d change = (after[i] - before[i]) / kStep;
-      changes(2 * i, column) = change.x;
-      changes(2 * i + 1, column) = change.y;
-    }
-  }
-  return changes;
-}
-
-/// RMS distance of the points that the right image shows from where the left one puts them, where
-/// both images' points are off by 1 px along each axis: more for a board that is small in the
-/// image, whose distance is known less well.
-double expected_disagreement(const Sighting& sighting, const Lenses& lenses, const PairPose& pose) {
-  const Eigen::MatrixXd left = changes_of(sighting.points, {}, lenses.left);
-  const Eigen::MatrixXd right = changes_of(sighting.points, pose, lenses.right);
-  const Eigen::MatrixXd covariance = (left.transpose() * left).inverse();
-  return std::sqrt(2.0 + (right * covariance).cwiseProduct(right).sum() /
-                             static_cast<double>(sighting.points.size()));
-}
-
-std::vector<double> disagreements_px(const std::vector<Sighting>& sightings, const Lens& right,
-                                     const PairPose& pose) {
-  std::vector<double> errors_px;
-  for (const Sighting& sighting : sightings)
-    errors_px.push_back(cv::norm(pixels_of(sighting.points, pose, right), sighting.pixels) /
-                        std::sqrt(static_cast<double>(sighting.points.size())));
-  return errors_px;
-}
-
-/// The pose on which most views agree: that of the one view with the least median of disagreements
-/// (Rousseeuw 1984), made exact by the half of the views that agrees best with it.
-PairPose agreed_pose(const std::vector<Sighting>& sightings, const Lenses& lenses) {
-  PairPose pose;
-  std::vector<double> errors_px;
-  double least_px = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const PairPose candidate = pose_by(lenses, i);
-    const std::vector<double> candidate_px = disagreements_px(sightings, lenses.right, candidate);
-    if (median(candidate_px) >= least_px) continue;
-    pose = candidate;
-    errors_px = candidate_px;
-    least_px = median(candidate_px);
-  }
-  Sighting agreed;
-  for (std::size_t i = 0; i < errors_px.size(); ++i) {
-    if (errors_px[i] > least_px) continue;
-    agreed.points.insert(agreed.points.end(), sightings[i].points.begin(),
-                         sightings[i].points.end());
-    agreed.pixels.insert(agreed.pixels.end(), sightings[i].pixels.begin(),
-                         sightings[i].pixels.end());
-  }
-  cv::solvePnP(agreed.points, agreed.pixels, lenses.right.K, lenses.right.D, pose.rotation,
-               pose.translation, true);
-  return pose;
-}
-
-/// A view that does not fit with the others.
-struct Outlier {
-  std::size_t index = 0;
-  double excess = 0.0;  ///< error as a multiple of what is allowed
-  std::string reason;
-};
-
-/// Of the lens that is known less well, as a share of the focal length.
-double focal_sigma(const Lenses& lenses) {
-  const auto share = [](const Lens& lens) {
-    return lens.uncertainty.focal_px / lens.K.at<double>(0, 0);
-  };
-  return std::max(share(lenses.left), share(lenses.right));
-}
-
-/// Before the lenses are refined by what both cameras see: then they bend until a board that moved
-/// between the images fits and the good views no longer do.
-Outlier most_disagreeing_view(const std::vector<View>& views, const Board& board,
-                              const Lenses& lenses, const FitParams& params) {
-  const std::vector<Sighting> sightings = sightings_of(views, board, lenses.left);
-  const PairPose pose = agreed_pose(sightings, lenses);
-  const std::vector<double> errors_px = disagreements_px(sightings, lenses.right, pose);
-  std::vector<double> expected;
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    expected.push_back(expected_disagreement(sightings[i], lenses, pose));
-    ratios.push_back(errors_px[i] / expected[i]);
-  }
-  const double noise_px = median(ratios);
-  const double least_limit_px =
-      params.outlier_px + 100.0 * params.lens_error_px_per_percent * focal_sigma(lenses);
-  Outlier worst;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const double limit_px =
-        std::max(least_limit_px, params.outlier_factor * noise_px * expected[i]);
-    if (errors_px[i] / limit_px <= worst.excess) continue;
-    worst = {
-        i, errors_px[i] / limit_px,
-        formatted("the right image shows the board %.2f px from where the left one and the other "
-                  "views put it (limit %.2f): wrong points, or the board moved between the two "
-                  "images",
-                  errors_px[i], limit_px)};
-  }
-  return worst;
 }
 
 Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params) {
@@ -453,7 +229,7 @@ StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const c
     if (focal_sigma(lenses) <= params.known_focal_sigma)
       outlier = most_disagreeing_view(kept, board, lenses, params);
     if (outlier.excess <= 1.0) {
-      StereoFit fit = fit_pair(kept, board, image_size, lenses);
+      StereoFit fit = fit_pair(kept, board, image_size, params, lenses);
       outlier = worst_view(fit.figures, params);
       if (outlier.excess <= 1.0) {
         fit.outliers = std::move(outliers);

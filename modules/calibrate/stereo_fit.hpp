@@ -4,24 +4,11 @@
 #include <vector>
 
 #include "common/camera/calibration.hpp"
+#include "modules/calibrate/fit_params.hpp"
+#include "modules/calibrate/lens_fit.hpp"
 #include "modules/calibrate/views.hpp"
 
 namespace limbcast::calibrate {
-
-struct FitParams {
-  /// Views without which nothing is computed. Three fix the intrinsics of a lens without
-  /// distortion (Zhang 2000); with five terms of distortion and noise five are the least.
-  int min_views = 5;
-  /// A view is an outlier where its error is more than so many times the median view's, and more
-  /// than so many pixels. Wrong points are off by whole pixels; by eye on OpenCV's example pairs,
-  /// whose good views reach twice the median and 0.5 px.
-  double outlier_factor = 3.0, outlier_px = 0.6;
-  /// Views are compared by the lenses that each camera alone has found where the standard deviation
-  /// of their focal lengths is no more than this share of them, and a view may be off by so many
-  /// pixels more for each per cent of it. On rendered boards of which good views were off by 1.8 px
-  /// it was 0.9 %.
-  double known_focal_sigma = 0.01, lens_error_px_per_percent = 2.0;
-};
 
 /// How well one view fits.
 struct ViewFit {
@@ -33,11 +20,6 @@ struct ViewFit {
   /// Angle between the board and the image, about the image's y axis (to the left or right) and x
   /// axis (up or down).
   double tilt_sideways_deg = 0.0, tilt_updown_deg = 0.0;
-};
-
-/// Standard deviations as cv::calibrateCamera estimates them from the residuals.
-struct LensUncertainty {
-  double focal_px = 0.0, principal_point_px = 0.0;
 };
 
 struct StereoFit {
