@@ -1,6 +1,7 @@
 #include "modules/calibrate/board.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -19,18 +20,25 @@ constexpr double kMarkerShare = 0.7, kCircleShare = 0.5;
 
 cv::Size lattice(const Board& board) { return {board.columns, board.rows}; }
 
-cv::Ptr<cv::aruco::Dictionary> dictionary_of(const std::string& name) {
-  static const std::map<std::string, cv::aruco::PREDEFINED_DICTIONARY_NAME> kDictionaries = {
-      {"4x4", cv::aruco::DICT_4X4_1000},
-      {"5x5", cv::aruco::DICT_5X5_1000},
-      {"6x6", cv::aruco::DICT_6X6_1000}};
-  return cv::aruco::getPredefinedDictionary(kDictionaries.at(name));
+/// The smallest of OpenCV's dictionaries with these markers that has enough for the board. Its
+/// markers are the first ones of the larger ones; the fewer there are, the more misread bits still
+/// tell which one is meant.
+cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
+  static const std::map<std::string, int> kSmallest = {{"4x4", cv::aruco::DICT_4X4_50},
+                                                       {"5x5", cv::aruco::DICT_5X5_50},
+                                                       {"6x6", cv::aruco::DICT_6X6_50}};
+  // In OpenCV's numbers the larger ones follow, in this order.
+  constexpr std::array<int, 4> kSizes = {50, 100, 250, 1000};
+  const int num_markers = (board.columns + 1) * (board.rows + 1) / 2;
+  const auto size = std::lower_bound(kSizes.begin(), kSizes.end(), num_markers);
+  return cv::aruco::getPredefinedDictionary(kSmallest.at(board.dictionary) +
+                                            static_cast<int>(size - kSizes.begin()));
 }
 
 cv::Ptr<cv::aruco::CharucoBoard> charuco_of(const Board& board) {
-  return cv::aruco::CharucoBoard::create(
-      board.columns + 1, board.rows + 1, static_cast<float>(board.square_m),
-      static_cast<float>(board.marker_m), dictionary_of(board.dictionary));
+  return cv::aruco::CharucoBoard::create(board.columns + 1, board.rows + 1,
+                                         static_cast<float>(board.square_m),
+                                         static_cast<float>(board.marker_m), dictionary_of(board));
 }
 
 BoardPoints numbered(std::vector<cv::Point2f> pixels) {
@@ -84,8 +92,13 @@ std::optional<BoardPoints> find_chessboard(const cv::Mat& grey, const Board& boa
 }
 
 std::optional<BoardPoints> find_circles(const cv::Mat& grey, const Board& board) {
+  // The first way misses boards that are turned about their normal by some 30 to 60 degrees or
+  // tilted much, the second one some that the first one finds.
+  constexpr int kGrid = cv::CALIB_CB_SYMMETRIC_GRID;
   std::vector<cv::Point2f> centres;
-  if (!cv::findCirclesGrid(grey, lattice(board), centres)) return std::nullopt;
+  if (!cv::findCirclesGrid(grey, lattice(board), centres, kGrid) &&
+      !cv::findCirclesGrid(grey, lattice(board), centres, kGrid | cv::CALIB_CB_CLUSTERING))
+    return std::nullopt;
   return numbered(centres);
 }
 
@@ -106,8 +119,13 @@ std::optional<BoardPoints> find_charuco(const cv::Mat& grey, const Board& board)
   const cv::Ptr<cv::aruco::CharucoBoard> charuco = charuco_of(board);
   std::vector<std::vector<cv::Point2f>> markers;
   std::vector<int> marker_ids;
-  cv::aruco::detectMarkers(grey, charuco->dictionary, markers, marker_ids);
+  std::vector<std::vector<cv::Point2f>> unread;
+  cv::aruco::detectMarkers(grey, charuco->dictionary, markers, marker_ids,
+                           cv::aruco::DetectorParameters::create(), unread);
   if (marker_ids.empty()) return std::nullopt;
+  // In small or noisy markers single bits are misread; where one stands tells which it is. A corner
+  // wants both markers beside it, so that one unread marker costs four.
+  cv::aruco::refineDetectedMarkers(grey, charuco, markers, marker_ids, unread);
   BoardPoints points;
   cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, charuco, points.pixels,
                                        points.ids);
@@ -155,6 +173,42 @@ cv::Mat draw_charuco(const Board& board, int square_px) {
   cv::Mat image;
   charuco_of(board)->draw({(board.columns + 1) * square_px, (board.rows + 1) * square_px}, image);
   return image;
+}
+
+/// Squares whose sides are shorter than this [px] OpenCV does not judge: it says so on stdout and
+/// gives this for a width.
+constexpr double kLeastSharpnessSide_px = 10.0, kNoSharpness = 9999.0;
+
+/// The mean distance of a point and the one `step` after it: 1 along the rows, else along the
+/// columns [px].
+double mean_side_px(const std::vector<cv::Point2f>& lattice, const Board& board, int step) {
+  double sum = 0.0;
+  int count = 0;
+  for (int id = 0; id + step < board.num_points(); ++id) {
+    if (step == 1 && id % board.columns == board.columns - 1) continue;
+    sum += cv::norm(lattice[id + step] - lattice[id]);
+    ++count;
+  }
+  return sum / count;
+}
+
+/// How well two lattices lie the same way round: the sum over pairs of points on opposite sides of
+/// the middle of what their lines have in common [px^2].
+double agreement_of(const std::vector<cv::Point2f>& a, const std::vector<cv::Point2f>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += (a[i] - a[a.size() - 1 - i]).dot(b[i] - b[b.size() - 1 - i]);
+  return sum;
+}
+
+/// A lattice of `side` columns and rows, numbered as somebody does who has turned it by 90 degrees.
+std::vector<cv::Point2f> turned_by_quarter(const std::vector<cv::Point2f>& lattice, int side) {
+  std::vector<cv::Point2f> turned;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column)
+      turned.push_back(lattice[(side - 1 - column) * side + row]);
+  }
+  return turned;
 }
 
 }  // namespace
@@ -227,17 +281,33 @@ std::optional<BoardPoints> glimpse_board(const cv::Mat& grey, const Board& board
 
 void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& right) {
   if (board.kind == BoardKind::kCharuco) return;
-  const cv::Point2f diagonal_left = left.pixels.back() - left.pixels.front();
-  const cv::Point2f diagonal_right = right.pixels.back() - right.pixels.front();
-  if (diagonal_left.dot(diagonal_right) < 0.0F)
-    std::reverse(right.pixels.begin(), right.pixels.end());
+  std::vector<cv::Point2f> turned = right.pixels;
+  const int turns = board.columns == board.rows ? 4 : 2;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < turns; ++turn) {
+    const double agreement = agreement_of(left.pixels, turned);
+    if (agreement > best) right.pixels = turned;
+    best = std::max(best, agreement);
+    turned = turns == 4 ? turned_by_quarter(turned, board.columns)
+                        : std::vector<cv::Point2f>(turned.rbegin(), turned.rend());
+  }
 }
 
 std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
                                     const BoardPoints& points) {
   const bool complete = static_cast<int>(points.ids.size()) == board.num_points();
   if (board.kind != BoardKind::kChessboard || !complete) return std::nullopt;
-  return cv::estimateChessboardSharpness(grey, lattice(board), points.pixels)[0];
+  constexpr float kRise = 0.8F;
+  std::optional<double> widest_px;
+  // Motion blurs the edges across it only.
+  for (const bool between_columns : {false, true}) {
+    const int step = between_columns ? 1 : board.columns;
+    if (mean_side_px(points.pixels, board, step) < kLeastSharpnessSide_px) continue;
+    const double width_px = cv::estimateChessboardSharpness(grey, lattice(board), points.pixels,
+                                                            kRise, between_columns)[0];
+    if (width_px < kNoSharpness) widest_px = std::max(widest_px.value_or(0.0), width_px);
+  }
+  return widest_px;
 }
 
 cv::Mat draw_board(const Board& board, int square_px) {

@@ -53,12 +53,13 @@ std::optional<BoardPoints> find_board(const cv::Mat& grey, const Board& board);
 /// The same, quickly rather than exactly and in all cases: to see where a video shows the board.
 std::optional<BoardPoints> glimpse_board(const cv::Mat& grey, const Board& board);
 
-/// Chessboards and circles look the same upside down: gives `right` the numbering of `left`, as
-/// both cameras of a pair stand the same way up.
+/// Chessboards and circles look the same upside down, with as many columns as rows also on their
+/// side: gives `right` the numbering of `left`, as both cameras of a pair stand the same way up.
 void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& right);
 
-/// Width of the edges between the squares [px], from 10 to 90 % of their contrast; nothing where
-/// not all corners are seen or the board has no squares.
+/// Width of the edges between the squares [px], from 10 to 90 % of their contrast, of those between
+/// columns or between rows, whichever are wider; nothing where not all corners are seen, the board
+/// has no squares or they are too small in the image.
 std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
                                     const BoardPoints& points);
 

@@ -1,5 +1,6 @@
 #include "modules/calibrate/pair_input.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
@@ -32,12 +33,22 @@ cv::Mat grey(const cv::Mat& image) {
   return result;
 }
 
+/// Before it is decoded: one that no module takes may be larger than the memory.
+void check_no_larger_than_modules_take(const EncodedImage& image, const std::string& path) {
+  if (std::max(image.width, image.height) <= kMaxImageSide) return;
+  throw InputError(path + ": is " + size_text(image.width, image.height) + ", at most " +
+                   std::to_string(kMaxImageSide) + " px a side; take smaller pictures");
+}
+
 void visit_folder(const std::string& folder, const Take& take) {
   for (const RecordedFrame& frame : find_recording(folder, kNames, {}).frames) {
     const EncodedImage left = read_encoded_image(frame.first_path);
     const EncodedImage right = read_encoded_image(frame.second_path);
-    check_8_bit(left, frame.first_path);
-    check_8_bit(right, frame.second_path);
+    for (const auto& [image, path] :
+         {std::pair(&left, &frame.first_path), {&right, &frame.second_path}}) {
+      check_8_bit(*image, *path);
+      check_no_larger_than_modules_take(*image, *path);
+    }
     check_not_told_to_end();
     if (!take({frame.time.name, decode_grey(left, frame.first_path),
                decode_grey(right, frame.second_path)}))

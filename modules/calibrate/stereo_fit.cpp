@@ -14,48 +14,11 @@
 #include "common/joined.hpp"
 #include "common/median.hpp"
 #include "common/units.hpp"
+#include "modules/calibrate/view_agreement.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
 namespace {
-
-using Pixels = std::vector<std::vector<cv::Point2f>>;
-using Points = std::vector<std::vector<cv::Point3f>>;
-
-struct Lens {
-  cv::Mat K, D;
-  LensUncertainty uncertainty;
-};
-
-/// In sides of a square: OpenCV's solvers miss the lens where a board's points lie closer than some
-/// tenths of a unit.
-cv::Point3f point_in_squares(const Board& board, int id) {
-  return board.point_m(id) / board.square_m;
-}
-
-std::vector<cv::Point3f> points_of(const Board& board, const std::vector<int>& ids) {
-  std::vector<cv::Point3f> points;
-  points.reserve(ids.size());
-  for (const int id : ids) points.push_back(point_in_squares(board, id));
-  return points;
-}
-
-Lens fit_lens(const std::vector<const BoardPoints*>& views, const Board& board,
-              const cv::Size& size) {
-  Points points;
-  Pixels pixels;
-  for (const BoardPoints* view : views) {
-    points.push_back(points_of(board, view->ids));
-    pixels.push_back(view->pixels);
-  }
-  Lens lens;
-  cv::Mat deviations;
-  cv::calibrateCamera(points, pixels, size, lens.K, lens.D, cv::noArray(), cv::noArray(),
-                      deviations, cv::noArray(), cv::noArray());
-  const auto deviation = [&](int i) { return deviations.at<double>(i); };
-  lens.uncertainty = {std::max(deviation(0), deviation(1)), std::max(deviation(2), deviation(3))};
-  return lens;
-}
 
 LensCalibration to_calibration(const Lens& lens, const cv::Size& size) {
   LensCalibration calibration;
@@ -112,31 +75,27 @@ double reprojection_px(const ViewFit& view) {
 }
 double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
 
-StereoFit fit_once(const std::vector<View>& views, const Board& board, const cv::Size& size) {
-  std::vector<const BoardPoints*> seen_left;
-  std::vector<const BoardPoints*> seen_right;
+/// Lenses and pose of the pair, all at once, from the lenses that each camera alone has found.
+StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv::Size& size,
+                   const FitParams& params, const Lenses& lenses) {
+  auto [left, right] = lenses;
   std::vector<CommonPoints> common;
-  Points points;
-  Pixels pixels_left;
-  Pixels pixels_right;
+  std::vector<std::vector<cv::Point3f>> points;
+  std::vector<std::vector<cv::Point2f>> pixels_left;
+  std::vector<std::vector<cv::Point2f>> pixels_right;
   for (const View& view : views) {
-    seen_left.push_back(&view.left);
-    seen_right.push_back(&view.right);
     common.push_back(common_points(view.left, view.right));
     points.push_back(points_of(board, common.back().ids));
     pixels_left.push_back(common.back().left);
     pixels_right.push_back(common.back().right);
   }
-  Lens left = fit_lens(seen_left, board, size);
-  Lens right = fit_lens(seen_right, board, size);
   cv::Mat R;
   cv::Mat T;
   cv::Mat view_errors;
-  constexpr int kIterations = 100;
-  constexpr double kStep = 1e-7;
-  cv::stereoCalibrate(points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R,
-                      T, cv::noArray(), cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS,
-                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kIterations, kStep});
+  cv::stereoCalibrate(
+      points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R, T,
+      cv::noArray(), cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS,
+      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, params.max_iterations, params.min_change});
 
   StereoFit fit;
   fit.calibration.left = to_calibration(left, size);
@@ -172,13 +131,6 @@ double median_of(const std::vector<ViewFit>& figures, double (*error_px)(const V
 double worst_reprojection_px(const ViewFit& view) {
   return std::max(view.reprojection_left_px, view.reprojection_right_px);
 }
-
-/// A view that does not fit with the others.
-struct Outlier {
-  std::size_t index = 0;
-  double excess = 0.0;  ///< error as a multiple of what is allowed
-  std::string reason;
-};
 
 Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params) {
   struct Kind {
@@ -270,18 +222,23 @@ StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const c
                      const FitParams& params) {
   std::vector<View> kept = views;
   std::vector<RejectedView> outliers;
-  check_enough(kept, outliers, params);
   while (true) {
-    StereoFit fit = fit_once(kept, board, image_size);
-    const Outlier outlier = worst_view(fit.figures, params);
+    check_enough(kept, outliers, params);
+    const Lenses lenses = fit_lenses(kept, board, image_size);
+    Outlier outlier;
+    if (focal_sigma(lenses) <= params.known_focal_sigma)
+      outlier = most_disagreeing_view(kept, board, lenses, params);
     if (outlier.excess <= 1.0) {
-      fit.outliers = std::move(outliers);
-      return fit;
+      StereoFit fit = fit_pair(kept, board, image_size, params, lenses);
+      outlier = worst_view(fit.figures, params);
+      if (outlier.excess <= 1.0) {
+        fit.outliers = std::move(outliers);
+        return fit;
+      }
     }
     outliers.push_back(
         {kept[outlier.index].name, {"does not fit with the others", outlier.reason}});
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(outlier.index));
-    check_enough(kept, outliers, params);
   }
 }
 
@@ -310,6 +267,14 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
         formatted("the epipolar error is %.2f px (limit %.2f); were both images "
                   "taken at the same time?",
                   fit.epipolar_px, params.max_epipolar_px));
+  const std::size_t num_outliers = fit.outliers.size();
+  const std::size_t num_views = fit.views.size() + num_outliers;
+  if (num_outliers > std::max<double>(params.max_outliers,
+                                      params.max_outlier_share * static_cast<double>(num_views)))
+    verdict.faults.push_back(
+        formatted("%zu of %zu views do not fit with the others (limit %.0f %%); were both images "
+                  "taken at the same time, the board held still?",
+                  num_outliers, num_views, 100.0 * params.max_outlier_share));
   judge_lens("left", calibration.left, fit.left, params, verdict.faults);
   judge_lens("right", calibration.right, fit.right, params, verdict.faults);
   if (coverage < params.min_coverage) {

@@ -4,19 +4,11 @@
 #include <vector>
 
 #include "common/camera/calibration.hpp"
+#include "modules/calibrate/fit_params.hpp"
+#include "modules/calibrate/lens_fit.hpp"
 #include "modules/calibrate/views.hpp"
 
 namespace limbcast::calibrate {
-
-struct FitParams {
-  /// Views without which nothing is computed. Three fix the intrinsics of a lens without
-  /// distortion (Zhang 2000); with five terms of distortion and noise five are the least.
-  int min_views = 5;
-  /// A view is an outlier where its error is more than so many times the median view's, and more
-  /// than so many pixels. Wrong points are off by whole pixels; by eye on OpenCV's example pairs,
-  /// whose good views reach twice the median and 0.5 px.
-  double outlier_factor = 3.0, outlier_px = 0.6;
-};
 
 /// How well one view fits.
 struct ViewFit {
@@ -28,11 +20,6 @@ struct ViewFit {
   /// Angle between the board and the image, about the image's y axis (to the left or right) and x
   /// axis (up or down).
   double tilt_sideways_deg = 0.0, tilt_updown_deg = 0.0;
-};
-
-/// Standard deviations as cv::calibrateCamera estimates them from the residuals.
-struct LensUncertainty {
-  double focal_px = 0.0, principal_point_px = 0.0;
 };
 
 struct StereoFit {
@@ -51,7 +38,8 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 
 /// Lenses and pose of a stereo pair from views of a board (Zhang 2000; cv::calibrateCamera for each
 /// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
-/// one is an outlier. Throws std::runtime_error where there are too few views.
+/// one is an outlier, by the lenses of each camera alone or of all at once. Throws
+/// std::runtime_error where there are too few views.
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      const FitParams& params = {});
 
@@ -71,6 +59,11 @@ struct VerdictParams {
   double max_reprojection_px = 1.0;
   /// Rows must agree to a fraction of a pixel, or the matcher finds nothing in fine texture.
   double max_epipolar_px = 0.8;
+  /// Views that did not fit, more than so many and than this share of all: with cameras that are
+  /// not triggered together and a board that moves none fits, and what is left agrees by chance. On
+  /// such views the focal length came out wrong by up to 3 % and the baseline by 12 %.
+  int max_outliers = 2;
+  double max_outlier_share = 0.25;
   /// Standard deviation of the focal length as a share of it; depth is wrong by the same share.
   double max_focal_sigma = 0.01;
   /// Boards parallel to the image do not tell the focal length from the distance (Zhang 2000), and

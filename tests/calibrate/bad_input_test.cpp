@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
 
 #include "common/camera/calibration_writer.hpp"
 #include "common/lcm_io/log_file.hpp"
@@ -96,6 +98,22 @@ TEST(CalibrateProgram, NamesAPairThatIsNotOfTheCalibrationsSize) {
               "limbcast-calibrate: a: the left image is 64x48, the calibration is for 640x480; "
               "give the calibration of this camera and image size\n");
   }
+}
+
+TEST(CalibrateProgram, RefusesPicturesThatAreTooLargeBeforeItDecodesThem) {
+  const TemporaryFolder folder;
+  cv::Mat picture(48, 64, CV_8UC1, cv::Scalar(90));
+  std::vector<uchar> bytes;
+  cv::imencode(".png", picture, bytes);
+  bytes[17] = 1;  // 65600 px wide, says the header
+  for (const char* name : {"a_left.png", "a_right.png"})
+    std::ofstream(folder / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  const Outcome outcome = run_program(
+      "limbcast-calibrate", {"--source", folder.path(), "--output", folder / "calibration.yml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("a_left.png: is 65600x48, at most 8192 px a side"));
 }
 
 TEST(CalibrateProgram, FindsNoBoardInPicturesOfAFewPixels) {

@@ -14,6 +14,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 const cv::Size kVga(640, 480);
 
@@ -83,6 +84,40 @@ TEST(StereoFit, LeavesOutAViewWhoseBoardMovedBetweenTheImages) {
   expect_found(fit.calibration, true_cameras());
 }
 
+TEST(StereoFit, LeavesOutViewsToWhichTheLensesCouldBend) {
+  const Board board;
+  for (const float moved_px : {4.0F, 12.0F}) {
+    std::vector<View> views = project_boards(board, varied_poses(board, 10), true_cameras());
+    for (cv::Point2f& pixel : views[3].right.pixels) pixel.x += moved_px;
+    for (cv::Point2f& pixel : views[4].right.pixels) pixel.x += 0.5F * moved_px;
+    const StereoFit fit = fit_stereo(views, board, kVga);
+    std::vector<std::string> names;
+    for (const RejectedView& view : fit.outliers) {
+      names.push_back(view.name);
+      EXPECT_THAT(view.reason.text, HasSubstr("the board moved between the two images"));
+    }
+    EXPECT_THAT(names, UnorderedElementsAre("view_3", "view_4"));
+    expect_found(fit.calibration, true_cameras());
+  }
+}
+
+TEST(StereoFit, FindsTheCamerasFromABoardThatLooksTheSameOnItsSide) {
+  Board board;
+  board.columns = board.rows = 6;
+  std::vector<View> views = project_boards(board, varied_poses(board, 14), true_cameras());
+  // A detector begins at any corner.
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t turn = 0; turn < i % 4; ++turn) {
+      std::vector<cv::Point2f>& pixels = views[i].right.pixels;
+      const std::vector<cv::Point2f> before = pixels;
+      for (int id = 0; id < board.num_points(); ++id)
+        pixels[id] = before[(id % board.columns) * board.columns + 5 - id / board.columns];
+    }
+    align_numbering(board, views[i].left, views[i].right);
+  }
+  expect_found(fit_stereo(views, board, kVga).calibration, true_cameras());
+}
+
 TEST(StereoFit, NeedsViewsOfTheBoard) {
   const Board board;
   const std::vector<View> views = project_boards(board, varied_poses(board, 3), true_cameras());
@@ -125,6 +160,15 @@ TEST(Judge, RefusesCamerasThatAreSwapped) {
   std::vector<View> views = project_boards(board, varied_poses(board, 12), true_cameras());
   for (View& view : views) std::swap(view.left, view.right);
   EXPECT_THAT(judge(fit_stereo(views, board, kVga), 0.8).faults, Contains(HasSubstr("swap them")));
+}
+
+TEST(Judge, RefusesWhereManyViewsDoNotFitWithTheOthers) {
+  StereoFit fit = good_fit();
+  fit.outliers.resize(4);
+  EXPECT_THAT(judge(fit, 0.8).faults, IsEmpty());
+  fit.outliers.resize(5);
+  EXPECT_THAT(judge(fit, 0.8).faults,
+              Contains(HasSubstr("5 of 17 views do not fit with the others (limit 25 %)")));
 }
 
 TEST(Judge, RefusesALensThatNoModuleWouldRead) {

@@ -33,6 +33,39 @@ TEST(ChessboardCorners, AreExactThoughTheBoardStandsAtASlant) {
   EXPECT_LT(std::sqrt(sum_of_squares / static_cast<double>(truth.pixels.size())), 0.07);
 }
 
+TEST(CirclesGrid, IsFoundThoughItIsTurnedAboutItsNormal) {
+  Board board;
+  board.kind = BoardKind::kCircles;
+  const double middle_m = 0.5 * board.square_m;
+  for (const int degrees : {0, 20, 45, 70}) {
+    const double turn = degrees * CV_PI / 180.0;
+    BoardPose pose{{0.0, 0.0, turn}, {0.0, 0.0, 0.6}};
+    const double x = (board.columns - 1) * middle_m, y = (board.rows - 1) * middle_m;
+    pose.translation_m[0] = -(std::cos(turn) * x - std::sin(turn) * y);
+    pose.translation_m[1] = -(std::sin(turn) * x + std::cos(turn) * y);
+    const cv::Mat picture = render_board(board, pose, true_cameras(), "turned").left;
+    EXPECT_TRUE(find_board(picture, board)) << degrees;
+  }
+}
+
+TEST(CharucoCorners, AreFoundThoughBitsOfMarkersAreMisread) {
+  Board board;
+  board.kind = BoardKind::kCharuco;
+  for (const char* dictionary : {"4x4", "5x5", "6x6"}) {
+    board.dictionary = dictionary;
+    cv::Mat picture =
+        render_board(board, {{0.3, 0.3, 0.0}, {-0.1, -0.07, 0.55}}, true_cameras(), "noisy").left;
+    cv::GaussianBlur(picture, picture, {}, 0.7);
+    cv::Mat noise(picture.size(), CV_16S);
+    cv::theRNG().state = 1;
+    cv::randn(noise, 0.0, 8.0);
+    cv::add(picture, noise, picture, cv::noArray(), CV_8U);
+    const std::optional<BoardPoints> found = find_board(picture, board);
+    ASSERT_TRUE(found);
+    EXPECT_GE(found->ids.size(), 48U) << dictionary;
+  }
+}
+
 /// What becomes of pictures of one board pose that is carried about.
 class Views : public ::testing::Test {
  protected:
@@ -130,6 +163,22 @@ TEST_F(Views, AreRefusedWhereAnImageIsBlurred) {
   EXPECT_THAT(reason_for(collector, pair),
               ::testing::ContainsRegex(
                   "blurred: edges in the right image are ([6-9]|10)\\.. px wide \\(limit 5.0\\)"));
+}
+
+TEST_F(Views, AreRefusedWhereMotionBlursEdgesOfOneDirectionOnly) {
+  for (const cv::Size& motion_px : {cv::Size(11, 1), cv::Size(1, 11)}) {
+    GreyPair pair = picture("a");
+    cv::blur(pair.right, pair.right, motion_px);
+    ViewCollector collector(board_, false);
+    EXPECT_THAT(reason_for(collector, pair), HasSubstr("blurred: edges in the right image"));
+  }
+}
+
+TEST_F(Views, AreNotCalledBlurredWhereSquaresAreTooSmallToTell) {
+  BoardPose far = varied_poses(board_, 1)[0];
+  far.translation_m = {0.0, 0.0, 1.7};
+  ViewCollector collector(board_, false);
+  EXPECT_EQ(reason_for(collector, render_board(board_, far, true_cameras(), "far")), "");
 }
 
 TEST_F(Views, AreRefusedWhereFewPointsAreInBothImages) {
