@@ -79,11 +79,10 @@ struct DepthPoseParams {
   /// What the mirror image adds to a person's log odds at most; of 2485 candidates (20 simulated
   /// sets and rooms, demo.log, stereo_dev) two at most.
   float mirror_adds_odds = 3.0F;
-  /// Below these log odds of a person the network of bent people is asked, and believed where it
-  /// is surer and sees a trunk that leans by more than this. Chosen on simulated people who bow
-  /// and on the sets of tests/accuracy/simulated.sh, whose figures stay as they were.
+  /// Below these log odds of a person the network of people who bow, kneel or sit on the ground is
+  /// asked, too, and believed where it is surer. With 6 somebody cut by the image's border in
+  /// demo.log is told where he is not.
   float sure_person_odds = 4.0F;
-  float min_bent_lean_deg = 20.0F;
   /// Spread of a mark across the ray whose log odds to be there are zero [m], by what power of e it
   /// falls with each unit of them, and the most that is told [m]. Measured on simulated and
   /// recorded people; whether the joint is in sight tells nothing more.
