@@ -66,6 +66,15 @@ TEST(DoubleReports, KnowABodyThatShrankToAHeadAndAnArm) {
   EXPECT_TRUE(same_place(shrunk, body_at(1, 0.0F, 0.99F)));
 }
 
+TEST(DoubleReports, KnowALapThatWasTakenForSomebody) {
+  BodyPose lap = body_at(2, 0.0F, 0.45F);
+  lap[Joint::kNeck].position_m = {0.0F, 0.15F, 2.8F};
+  lap[Joint::kChest].valid = true;
+  lap[Joint::kChest].position_m = {0.0F, 0.25F, 2.67F};
+  lap[Joint::kPelvis].position_m = {0.0F, 0.4F, 2.57F};
+  EXPECT_TRUE(same_place(body_at(1, 0.0F, 0.99F), lap));
+}
+
 TEST(DoubleReports, KeepAChildBeforeAnAdult) {
   BodyPose child = body_at(2, 0.0F, 0.9F);
   for (JointEstimate& joint : child.joints) joint.position_m += Eigen::Vector3f(0.0F, 0.4F, -0.4F);
