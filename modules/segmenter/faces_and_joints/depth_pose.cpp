@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/human_model/joints.hpp"
+#include "common/units.hpp"
 #include "modules/segmenter/networks/network.hpp"
 #include "modules/segmenter/range_image.hpp"
 
@@ -143,6 +144,18 @@ Eigen::Vector3f place_in_picture_m(const DepthPicture& picture, const SeenInDept
                                      picture.middle_m + joint.behind_middle_m);
 }
 
+/// Angle of the spine against gravity.
+float trunk_lean_deg(const DepthPicture& picture, const SeenPerson& person) {
+  const auto middle_m = [&](Joint left, Joint right) -> Eigen::Vector3f {
+    const auto& joints = person.joints;
+    return 0.5F * (place_in_picture_m(picture, joints[index(left)]) +
+                   place_in_picture_m(picture, joints[index(right)]));
+  };
+  const Eigen::Vector3f spine_m = middle_m(Joint::kHipLeft, Joint::kHipRight) -
+                                  middle_m(Joint::kShoulderLeft, Joint::kShoulderRight);
+  return kDegreesPerRadian<float> * std::atan2(std::hypot(spine_m.x(), spine_m.z()), spine_m.y());
+}
+
 /// Of a mark whose log odds are so high.
 float spread_m(float presence_odds, const DepthPoseParams& params) {
   return std::min(params.even_odds_spread_m * std::exp(-params.spread_log_slope * presence_odds),
@@ -204,7 +217,8 @@ std::optional<PoseInDepths> DepthPose::see_person(const DepthPicture& picture,
   if (!params_.enabled) return std::nullopt;
   auto seen = ask(picture.of_scan ? *of_scans_ : *of_cameras_, picture, min_person_odds, params_);
   if (!seen || seen->odds < params_.sure_person_odds) {
-    if (auto bent = ask(*of_bent_, picture, seen ? seen->odds : min_person_odds, params_))
+    auto bent = ask(*of_bent_, picture, seen ? seen->odds : min_person_odds, params_);
+    if (bent && (!picture.of_scan || trunk_lean_deg(picture, *bent) > params_.min_scanned_lean_deg))
       seen = std::move(bent);
   }
   if (!seen) return std::nullopt;
