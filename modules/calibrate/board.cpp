@@ -30,7 +30,8 @@ cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
   // In OpenCV's numbers the larger ones follow, in this order.
   constexpr std::array<int, 4> kSizes = {50, 100, 250, 1000};
   const int num_markers = (board.columns + 1) * (board.rows + 1) / 2;
-  const auto size = std::lower_bound(kSizes.begin(), kSizes.end(), num_markers);
+  // Of a board with more markers than any has OpenCV tells with the largest.
+  const auto size = std::lower_bound(kSizes.begin(), kSizes.end() - 1, num_markers);
   return cv::aruco::getPredefinedDictionary(kSmallest.at(board.dictionary) +
                                             static_cast<int>(size - kSizes.begin()));
 }

@@ -79,6 +79,8 @@ double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
 StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv::Size& size,
                    const FitParams& params, const Lenses& lenses) {
   auto [left, right] = lenses;
+  // cv::stereoCalibrate refines them in place.
+  for (cv::Mat* refined : {&left.K, &left.D, &right.K, &right.D}) *refined = refined->clone();
   std::vector<CommonPoints> common;
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels_left;
