@@ -22,6 +22,8 @@ struct MatcherParams {
 };
 
 /// Disparities of the left image of a rectified pair. Both images 8-bit, BGR or grey, of one size.
+/// Where more than `kMaxDisparities` are asked for, the images are matched so many times smaller
+/// that these suffice.
 DisparityImage match(const cv::Mat& left, const cv::Mat& right, const MatcherParams& params = {});
 
 }  // namespace limbcast::reconstructor

@@ -7,8 +7,8 @@ namespace limbcast::reconstructor {
 void declare(config::Section& section, ReconstructorOptions& options) {
   section.add(
       "near-limit-m", options.near_limit_m, "m",
-      "nearest depth, 0 = 0.4, of depth cameras 0.3; of a stereo pair at most 255 disparities "
-      "are searched",
+      "nearest depth, 0 = 0.4, of depth cameras 0.3; a stereo pair that would need more than 255 "
+      "disparities is matched smaller",
       {0.0, 100.0});
   section.add("far-limit-m", options.far_limit_m, "m", "drop points beyond", {0.2, 1000.0});
   section.add("image-scale", options.image_scale, "",

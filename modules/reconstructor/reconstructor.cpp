@@ -69,7 +69,7 @@ StereoReconstructor::StereoReconstructor(const StereoCalibration& calibration,
       roi_(region_of_interest(options, rectifier_.camera())) {
   const double near_limit_m = options.stereo_near_limit_m();
   const auto disparities_to = [&](double distance_m) {
-    const int most = std::min(rectifier_.camera().width, kMaxDisparities);
+    const int most = rectifier_.camera().width;
     const double needed = std::ceil(focal_baseline_px_m() / distance_m) + 1.0;
     return needed < most ? static_cast<int>(needed) : most;
   };

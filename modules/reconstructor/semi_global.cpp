@@ -311,8 +311,7 @@ cv::Mat1f match_semi_global(const cv::Mat1b& left, const cv::Mat1b& right,
   if (left.size() != right.size())
     throw std::invalid_argument("left and right image differ in size");
   if (params.num_disparities > kMaxDisparities)
-    throw std::invalid_argument(
-        "more than 255 disparities: raise near-limit-m or lower image-scale");
+    throw std::invalid_argument("more than 255 disparities");
   const StripMatcher matcher(left, right, params);
   cv::Mat1f disparity_px(left.size());
   const int num_strips = (left.rows + kStripRows - 1) / kStripRows;

@@ -13,15 +13,14 @@
 namespace limbcast::reconstructor {
 namespace {
 
-/// Says so where less is searched than the near limit asks for.
+/// Says so where the image is too narrow for what the near limit asks for.
 void tell_nearest(const StereoReconstructor& reconstructor, const std::string& sensor,
                   const ReconstructorOptions& options) {
   if (reconstructor.nearest_m() <= options.stereo_near_limit_m()) return;
   std::ostringstream text;
   text << "stereo camera '" << sensor << "': nothing nearer than " << std::fixed
        << std::setprecision(2) << reconstructor.nearest_m() << " m is seen, not near-limit-m ("
-       << options.stereo_near_limit_m() << "), as at most " << reconstructor.most_disparities()
-       << " disparities are searched; a lower image-scale sees nearer";
+       << options.stereo_near_limit_m() << "): farther to the left the right image ends";
   config::log(config::LogLevel::kInfo, text.str());
 }
 

@@ -189,11 +189,12 @@ TEST(Match, RefusesImagesOfDifferentSizes) {
                std::invalid_argument);
 }
 
-TEST(Match, RefusesMoreDisparitiesThanAByteHolds) {
-  MatcherParams params;
-  params.semi_global.num_disparities = 256;
-  EXPECT_THROW(match(cv::Mat1b(48, 640, uchar{0}), cv::Mat1b(48, 640, uchar{0}), params),
-               std::invalid_argument);
+TEST(SemiGlobal, RefusesMoreDisparitiesThanAByteHolds) {
+  SemiGlobalParams params;
+  params.num_disparities = 256;
+  EXPECT_THROW(
+      match_semi_global(cv::Mat1b(48, 640, uchar{0}), cv::Mat1b(48, 640, uchar{0}), params),
+      std::invalid_argument);
 }
 
 TEST(Match, FindsNothingInImagesWithoutTexture) {

@@ -19,10 +19,11 @@ using Brightness = std::function<double(double u, double v)>;
 
 /// A wall, and a square hand before it.
 RectifiedPair pair_with_hand(const Brightness& wall, int hand_px,
-                             int wall_disparity = kWallDisparity) {
+                             int wall_disparity = kWallDisparity, int hand_left = kHandLeft,
+                             int hand_disparity = kHandDisparity) {
   const test::Texture skin;
-  const auto brightness = [&](int u, int v, int wall_shift, int hand_disparity) {
-    const int hand_u = u + hand_disparity - kHandLeft, hand_v = v - kHandTop;
+  const auto brightness = [&](int u, int v, int wall_shift, int hand_shift) {
+    const int hand_u = u + hand_shift - hand_left, hand_v = v - kHandTop;
     const bool on_hand = hand_u >= 0 && hand_u < hand_px && hand_v >= 0 && hand_v < hand_px;
     return cv::saturate_cast<uchar>(on_hand ? skin(hand_u, hand_v) : wall(u + wall_shift, v));
   };
@@ -30,7 +31,7 @@ RectifiedPair pair_with_hand(const Brightness& wall, int hand_px,
   for (int v = 0; v < 480; ++v) {
     for (int u = 0; u < 640; ++u) {
       pair.left.at<uchar>(v, u) = brightness(u, v, 0, 0);
-      pair.right.at<uchar>(v, u) = brightness(u, v, wall_disparity, kHandDisparity);
+      pair.right.at<uchar>(v, u) = brightness(u, v, wall_disparity, hand_disparity);
     }
   }
   return pair;
@@ -71,18 +72,34 @@ TEST(NearLook, IsNotMisledByWallpaperThatRepeatsItself) {
   EXPECT_EQ(find_num_disparities(pair_with_hand(wallpaper, 0, kDisparity), kUsual, kMost), kUsual);
 }
 
+/// Share of the hand's inner pixels whose disparity is found to half a pixel.
+double share_right(const DisparityImage& disparity, int hand_left, int hand_disparity) {
+  const cv::Rect inner(hand_left + 10, kHandTop + 10, 40, 40);
+  const cv::Mat1f error = cv::abs(disparity.disparity_px(inner) - hand_disparity);
+  return static_cast<double>(cv::countNonZero(error < 0.5F)) / inner.area();
+}
+
 TEST(StereoReconstructor, SeesAHandThatIsNearerThanMostThings) {
   const StereoReconstructor reconstructor(test::ideal_calibration(), {});
   const DisparityImage disparity = reconstructor.match(pair_with_hand(plain_wall, 60));
-  const cv::Rect inner(kHandLeft + 10, kHandTop + 10, 40, 40);
-  cv::Mat1f error = cv::abs(disparity.disparity_px(inner) - kHandDisparity);
-  EXPECT_GT(cv::countNonZero(error < 0.5F), inner.area() * 95 / 100);
+  EXPECT_GT(share_right(disparity, kHandLeft, kHandDisparity), 0.95);
 }
 
-TEST(StereoReconstructor, SearchesNoMoreDisparitiesThanTheMatcherCan) {
+TEST(StereoReconstructor, SeesAHandWithMoreDisparitiesThanTheMatcherSearches) {
   StereoCalibration wide = test::ideal_calibration();
   wide.T = {-0.5, 0.0, 0.0};
-  EXPECT_EQ(StereoReconstructor(wide, {}).most_disparities(), 255);
+  constexpr int kLeft = 420, kNearDisparity = kMaxDisparities + 129;
+  const DisparityImage disparity = StereoReconstructor(wide, {}).match(
+      pair_with_hand(plain_wall, 60, kWallDisparity, kLeft, kNearDisparity));
+  EXPECT_GT(share_right(disparity, kLeft, kNearDisparity), 0.95);
+}
+
+TEST(StereoReconstructor, SearchesNoFartherThanTheImageIsWide) {
+  StereoCalibration wide = test::ideal_calibration();
+  wide.T = {-0.7, 0.0, 0.0};
+  const StereoReconstructor reconstructor(wide, {});
+  EXPECT_EQ(reconstructor.most_disparities(), 640);
+  EXPECT_GT(reconstructor.nearest_m(), ReconstructorOptions{}.stereo_near_limit_m());
 }
 
 }  // namespace

@@ -161,11 +161,11 @@ class RecordedFace : public ::testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(kFolder)) GTEST_SKIP() << kFolder << " is not there";
   }
-  LoadedFrame read(const std::string& name) const {
-    return FrameReader(kFolder, DepthFrom::kTruth).read(kFolder + "/" + name);
+  static LoadedFrame read(const std::string& name, const std::string& folder = kFolder) {
+    return FrameReader(folder, DepthFrom::kTruth).read(folder + "/" + name);
   }
 
-  const std::string kFolder = LIMBCAST_DATA_DIR "/stereo_dev/pointing";
+  inline static const std::string kFolder = LIMBCAST_DATA_DIR "/stereo_dev/pointing";
   const FaceParams params_{};
 };
 
@@ -184,6 +184,18 @@ TEST_F(RecordedFace, TellsToWhichSideItLooks) {
   EXPECT_GT(finder.look(frame.cloud, head_m, kUpPx).looks_right_log_odds, 1.0F);
   head_m.x() = -head_m.x();
   EXPECT_LT(finder.look(mirrored(frame.cloud), head_m, kUpPx).looks_right_log_odds, -1.0F);
+}
+
+/// What is held before a trunk is taken for a back, unless the face weighs more than a simulated
+/// one may.
+TEST_F(RecordedFace, OfARealManInPlainSightTellsMoreThanASimulatedOne) {
+  constexpr float kSimulated = 4.0F;
+  for (const char* name : {"seated_00007", "seated_00011", "seated_00016", "seated_00019"}) {
+    const LoadedFrame frame = read(name, LIMBCAST_DATA_DIR "/rgbd_pointing");
+    const Eigen::Vector3f& head_m = frame.persons.at(0).joints_m.at("head");
+    EXPECT_GT(FaceFinder(params_).look(frame.cloud, head_m, kUpPx).facing_log_odds, kSimulated)
+        << name;
+  }
 }
 
 }  // namespace
