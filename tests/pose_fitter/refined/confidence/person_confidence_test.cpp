@@ -91,6 +91,17 @@ TEST(PersonConfidence, MayBeLowerInCompany) {
   EXPECT_FALSE(of_a_camera(0.05, 0.35));
 }
 
+TEST(PersonConfidence, MayBeLowerOfSomebodyWhoseFaceIsInPlainSight) {
+  FittedBody fitted = doubtful_person(0.35, 0.5);
+  fitted.observation.noise = kOfACamera;
+  const auto told_with = [&](float facing_log_odds) {
+    fitted.observation.face.facing_log_odds = facing_log_odds;
+    return told_alone(fitted);
+  };
+  EXPECT_TRUE(told_with(6.0F));
+  EXPECT_FALSE(told_with(3.0F)) << "which a poster may have";
+}
+
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
   FittedBody doubtful = doubtful_person(0.4, 0.6), sure = standing_person();
   for (FittedBody* fitted : {&doubtful, &sure}) {
