@@ -7,7 +7,7 @@ namespace limbcast::calibrate {
 namespace {
 
 Lens fit_lens(const std::vector<const BoardPoints*>& views, const Board& board,
-              const cv::Size& size) {
+              const cv::Size& size, Distortion distortion) {
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> pixels;
   for (const BoardPoints* view : views) {
@@ -17,7 +17,7 @@ Lens fit_lens(const std::vector<const BoardPoints*>& views, const Board& board,
   Lens lens;
   cv::Mat deviations;
   cv::calibrateCamera(points, pixels, size, lens.K, lens.D, lens.rotations, lens.translations,
-                      deviations, cv::noArray(), cv::noArray());
+                      deviations, cv::noArray(), cv::noArray(), flags_of(distortion));
   const auto deviation = [&](int i) { return deviations.at<double>(i); };
   lens.uncertainty = {std::max(deviation(0), deviation(1)), std::max(deviation(2), deviation(3))};
   return lens;
@@ -36,14 +36,20 @@ std::vector<cv::Point3f> points_of(const Board& board, const std::vector<int>& i
   return points;
 }
 
-Lenses fit_lenses(const std::vector<View>& views, const Board& board, const cv::Size& size) {
+int flags_of(Distortion distortion) {
+  return distortion == Distortion::kWithK3 ? 0 : cv::CALIB_FIX_K3;
+}
+
+Lenses fit_lenses(const std::vector<View>& views, const Board& board, const cv::Size& size,
+                  Distortion distortion) {
   std::vector<const BoardPoints*> seen_left;
   std::vector<const BoardPoints*> seen_right;
   for (const View& view : views) {
     seen_left.push_back(&view.left);
     seen_right.push_back(&view.right);
   }
-  return {fit_lens(seen_left, board, size), fit_lens(seen_right, board, size)};
+  return {fit_lens(seen_left, board, size, distortion),
+          fit_lens(seen_right, board, size, distortion)};
 }
 
 double focal_sigma(const Lenses& lenses) {

@@ -29,9 +29,16 @@ struct Lenses {
 cv::Point3f point_in_squares(const Board& board, int id);
 std::vector<cv::Point3f> points_of(const Board& board, const std::vector<int>& ids);
 
+/// Terms of distortion that are sought; others stay 0.
+enum class Distortion { kWithoutK3, kWithK3 };
+
+/// As cv::calibrateCamera and cv::stereoCalibrate take them.
+int flags_of(Distortion distortion);
+
 /// Each camera alone, from all points that it sees (Zhang 2000; cv::calibrateCamera). `size` of an
 /// image [px].
-Lenses fit_lenses(const std::vector<View>& views, const Board& board, const cv::Size& size);
+Lenses fit_lenses(const std::vector<View>& views, const Board& board, const cv::Size& size,
+                  Distortion distortion);
 
 /// Standard deviation of the focal length of the lens that is known less well, as a share of it.
 double focal_sigma(const Lenses& lenses);

@@ -77,7 +77,7 @@ double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
 
 /// Lenses and pose of the pair, all at once, from the lenses that each camera alone has found.
 StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv::Size& size,
-                   const FitParams& params, const Lenses& lenses) {
+                   const FitParams& params, const Lenses& lenses, Distortion distortion) {
   auto [left, right] = lenses;
   // cv::stereoCalibrate refines them in place.
   for (cv::Mat* refined : {&left.K, &left.D, &right.K, &right.D}) *refined = refined->clone();
@@ -96,10 +96,12 @@ StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv:
   cv::Mat view_errors;
   cv::stereoCalibrate(
       points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R, T,
-      cv::noArray(), cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS,
+      cv::noArray(), cv::noArray(), view_errors,
+      cv::CALIB_USE_INTRINSIC_GUESS | flags_of(distortion),
       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, params.max_iterations, params.min_change});
 
   StereoFit fit;
+  fit.distortion = distortion;
   fit.calibration.left = to_calibration(left, size);
   fit.calibration.right = to_calibration(right, size);
   cv::cv2eigen(R, fit.calibration.R);
@@ -220,18 +222,22 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
            : "do --board, --columns and --rows describe the board?"));
 }
 
-StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
-                     const FitParams& params) {
+namespace {
+
+/// Without the views that are outliers.
+StereoFit fit_without_outliers(const std::vector<View>& views, const Board& board,
+                               const cv::Size& image_size, const FitParams& params,
+                               Distortion distortion) {
   std::vector<View> kept = views;
   std::vector<RejectedView> outliers;
   while (true) {
     check_enough(kept, outliers, params);
-    const Lenses lenses = fit_lenses(kept, board, image_size);
+    const Lenses lenses = fit_lenses(kept, board, image_size, distortion);
     Outlier outlier;
     if (focal_sigma(lenses) <= params.known_focal_sigma)
       outlier = most_disagreeing_view(kept, board, lenses, params);
     if (outlier.excess <= 1.0) {
-      StereoFit fit = fit_pair(kept, board, image_size, params, lenses);
+      StereoFit fit = fit_pair(kept, board, image_size, params, lenses, distortion);
       outlier = worst_view(fit.figures, params);
       if (outlier.excess <= 1.0) {
         fit.outliers = std::move(outliers);
@@ -242,6 +248,28 @@ StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const c
         {kept[outlier.index].name, {"does not fit with the others", outlier.reason}});
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(outlier.index));
   }
+}
+
+bool folds_an_image(const StereoFit& fit) {
+  return distortion_fault(fit.calibration.left) || distortion_fault(fit.calibration.right);
+}
+
+}  // namespace
+
+StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
+                     const FitParams& params) {
+  const auto fit_with = [&](Distortion distortion) {
+    return fit_without_outliers(views, board, image_size, params, distortion);
+  };
+  const StereoFit fit = fit_with(Distortion::kWithK3);
+  if (!folds_an_image(fit)) return fit;
+  try {
+    const StereoFit stiffer = fit_with(Distortion::kWithoutK3);
+    if (!folds_an_image(stiffer)) return stiffer;
+  } catch (const std::runtime_error&) {
+    // Too few views fit such lenses: those with k3 are told, and why they must not be used.
+  }
+  return fit;
 }
 
 Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params) {
@@ -294,6 +322,10 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
     verdict.warnings.push_back(
         formatted("by this the cameras are %.4g mm apart; is --square-mm in millimetres?",
                   kMillimetersPerMeter<double> * T.norm()));
+  if (fit.distortion == Distortion::kWithoutK3)
+    verdict.warnings.push_back(
+        "the distortion has no k3: with it the image would fold where no board was shown; show it "
+        "at the image's borders, too");
   if (static_cast<int>(fit.views.size()) < params.enough_views)
     verdict.warnings.push_back(formatted("only %zu views; %d or more give a better result",
                                          fit.views.size(), params.enough_views));

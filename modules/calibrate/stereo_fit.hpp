@@ -29,6 +29,7 @@ struct StereoFit {
   std::vector<RejectedView> outliers;
   double reprojection_px = 0.0, epipolar_px = 0.0;  ///< RMS of all points
   LensUncertainty left, right;
+  Distortion distortion = Distortion::kWithK3;  ///< that was sought
 };
 
 /// Throws std::runtime_error, with the reasons why others were rejected, where there are too few
@@ -38,8 +39,9 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 
 /// Lenses and pose of a stereo pair from views of a board (Zhang 2000; cv::calibrateCamera for each
 /// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
-/// one is an outlier, by the lenses of each camera alone or of all at once. Throws
-/// std::runtime_error where there are too few views.
+/// one is an outlier, by the lenses of each camera alone or of all at once. Where a lens folds the
+/// image, as k3 may do beyond the boards, all of it without k3. Throws std::runtime_error where
+/// there are too few views.
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      const FitParams& params = {});
 

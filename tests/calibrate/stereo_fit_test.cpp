@@ -101,6 +101,26 @@ TEST(StereoFit, LeavesOutViewsToWhichTheLensesCouldBend) {
   }
 }
 
+TEST(StereoFit, LeavesK3OutWhereItWouldFoldTheImageBeyondTheBoards) {
+  const Board board;
+  StereoCalibration wide = true_cameras();
+  for (LensCalibration* lens : {&wide.left, &wide.right}) {
+    lens->camera.fx *= 0.62;
+    lens->camera.fy *= 0.62;
+  }
+  std::vector<BoardPose> poses = varied_poses(board, 20);
+  for (BoardPose& pose : poses) {
+    pose.translation_m[0] *= 0.5;
+    pose.translation_m[1] *= 0.5;
+  }
+  const StereoFit fit = fit_stereo(project_boards(board, poses, wide), board, kVga);
+  expect_found(fit.calibration, wide);
+  EXPECT_EQ(fit.calibration.left.distortion.at(4), 0.0);
+  const Verdict verdict = judge(fit, VerdictParams{}.min_coverage);
+  EXPECT_THAT(verdict.faults, IsEmpty());
+  EXPECT_THAT(verdict.warnings, Contains(HasSubstr("the distortion has no k3")));
+}
+
 TEST(StereoFit, FindsTheCamerasFromABoardThatLooksTheSameOnItsSide) {
   Board board;
   board.columns = board.rows = 6;
