@@ -99,7 +99,7 @@ TEST(PersonConfidence, MayBeLowerOfSomebodyWhoseFaceIsInPlainSight) {
     return told_alone(fitted);
   };
   EXPECT_TRUE(told_with(6.0F));
-  EXPECT_FALSE(told_with(3.0F)) << "which a poster may have";
+  EXPECT_FALSE(told_with(3.0F)) << "as simulated faces have";
 }
 
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
