@@ -178,7 +178,10 @@ std::optional<GroundPlane> find_in(const Sample& sample, const Eigen::Vector3f& 
   }
   const Support support = count_support(sample, 1, *plane, inlier_m);
   const auto share = static_cast<float>(support.inliers) / static_cast<float>(sample.size());
-  if (share < params.min_inlier_share || support.below > params.max_below_share * support.inliers ||
+  const double of_full_extent =
+      extent_m < params.full_extent_m ? extent_m / params.full_extent_m : 1.0;
+  const double most_below = params.max_below_share * of_full_extent * support.inliers;
+  if (share < params.min_inlier_share || support.below > most_below ||
       extent_m < params.min_extent_m || plane->height_m < params.min_height_m ||
       plane->down.dot(down) < std::cos(params.max_tilt_rad))
     return std::nullopt;
@@ -232,7 +235,7 @@ std::optional<GroundPlane> complete_gravity(Cloud& cloud, const GroundPlaneParam
   Gravity& gravity = cloud.stamp.gravity;
   const bool told = gravity.source != GravitySource::kLevel;
   if (told && gravity.sensor_height_m) return std::nullopt;
-  GroundPlaneParams search_params = params;
+  GroundPlaneParams search_params = told ? params : where_gravity_is_untold(params);
   if (told) search_params.max_tilt_rad = kToldTiltRad;
   const auto ground = find(cloud, gravity.down, search_params);
   if (!ground) return std::nullopt;

@@ -26,7 +26,7 @@ Eigen::Vector3d median_direction(const std::vector<Eigen::Vector3d>& directions)
 
 void MountingFinder::add(const Cloud& cloud) {
   ++frames_;
-  const auto ground = find_ground_plane(cloud, Eigen::Vector3f::UnitY());
+  const auto ground = find_ground_plane(cloud, Eigen::Vector3f::UnitY(), where_gravity_is_untold());
   if (!ground) return;
   downs_.push_back(ground->down.cast<double>());
   heights_m_.push_back(ground->height_m);

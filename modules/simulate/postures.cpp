@@ -144,6 +144,59 @@ void sit_on_floor(Rng& rng, Posture& posture) {
   posture.lean_rad = rng.uniform(-0.2, 0.5);
 }
 
+/// Something that hides most of the trunk, or of the face: a board, a poster, a crate.
+HeldThing draw_held_thing(Rng& rng, const BodyShape& body, bool seated) {
+  HeldThing thing;
+  const bool is_crate = rng.chance(0.35);
+  thing.size_m.x() = is_crate ? rng.uniform(0.25, 0.6) : rng.uniform(0.3, 0.95);
+  thing.size_m.y() = is_crate ? rng.uniform(0.2, 0.5) : rng.uniform(0.25, 0.75);
+  thing.size_m.z() = is_crate ? rng.uniform(0.15, 0.4) : rng.uniform(0.004, 0.03);
+  // Smaller people hold smaller things, and nearer.
+  const double scale = body.stature_m / 1.75;
+  thing.size_m *= scale;
+  const double front_m = 0.07 * body.stature_m * std::max(body.trunk_girth, body.waist_girth) +
+                         body.belly_m + 1.5 * body.clothes.torso_m;
+  thing.middle_m.z() = front_m + rng.uniform(0.04, 0.25) * scale + 0.5 * thing.size_m.z();
+  thing.middle_m.x() = rng.normal(0.0, 0.03);
+  thing.middle_m.y() = rng.uniform(-0.4, is_crate ? -0.1 : 0.12) * scale;
+  if (seated) {  // over the thighs
+    thing.middle_m.y() = std::max(thing.middle_m.y(), -0.34 * scale + 0.5 * thing.size_m.y());
+  }
+  thing.tilt_rad = rng.normal(0.0, 0.15);
+  return thing;
+}
+
+/// With both hands, at its sides or at its lower edge.
+Posture holding(Rng& rng, const BodyShape& body) {
+  Posture posture;
+  posture.name = "hold";
+  if (rng.chance(0.2)) {
+    sit(rng, posture);
+  } else {
+    stand(rng, posture);
+  }
+  move_trunk(rng, posture);
+  posture.held = draw_held_thing(rng, body, posture.seated);
+  const HeldThing& thing = posture.held;
+  const bool from_below = rng.chance(0.3);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const double inward = side == Side::kLeft ? 1.0 : -1.0;
+    const double half_width =
+        thing.size_m.x() * (from_below ? rng.uniform(0.25, 0.4) : 0.5) + (from_below ? 0.0 : 0.03);
+    const double up =
+        from_below ? -0.5 * thing.size_m.y() - 0.03 : rng.uniform(-0.45, 0.2) * thing.size_m.y();
+    const Vector3d wrist(half_width + inward * thing.middle_m.x(), thing.middle_m.y() + up,
+                         thing.middle_m.z() + rng.normal(-0.03, 0.02));
+    set_clear_arm(body, side, posture, [&] {
+      ArmPose arm = reach(body, wrist, {rng.uniform(0.3, 1.0), -1.0, rng.uniform(-0.5, 0.0)});
+      arm.hand_bend_rad = rng.normal(0.1, 0.2);
+      arm.hand_roll_rad = rng.normal(0.0, 0.3);
+      return arm;
+    });
+  }
+  return posture;
+}
+
 struct Habit {
   std::string name, left, right;  ///< what the arms do; left and right swap at random
   double weight;
@@ -183,7 +236,7 @@ const std::vector<std::string>& natural_posture_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
     for (const Habit& habit : habits()) result.push_back(habit.name);
-    for (const char* name : {"walk", "sit", "squat", "lean", "bow", "kneel", "floor"})
+    for (const char* name : {"walk", "sit", "squat", "lean", "bow", "kneel", "floor", "hold"})
       result.emplace_back(name);
     return result;
   }();
@@ -241,6 +294,7 @@ Posture draw_posture(Rng& rng, const BodyShape& body, const std::string& name) {
     return posture;
   }
   if (name == "bow") return bowing(rng, body);
+  if (name == "hold") return holding(rng, body);
   std::string arms[2] = {"hang", "hang"};
   if (name == "sit") {
     sit(rng, posture);

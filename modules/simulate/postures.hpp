@@ -8,8 +8,8 @@
 namespace limbcast::simulate {
 
 /// Names of the natural postures: those that draw_natural draws, and "bow" (deeper than "lean"),
-/// "kneel" and "floor" (sitting on it), which are drawn by name alone: what earlier seeds draw
-/// stays as it is.
+/// "kneel", "floor" (sitting on it) and "hold" (a board or a crate before the trunk or the face),
+/// which are drawn by name alone: what earlier seeds draw stays as it is.
 const std::vector<std::string>& natural_posture_names();
 
 /// A natural posture by name, drawn with some freedom; an arm of it never goes through the body.

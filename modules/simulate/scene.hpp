@@ -36,6 +36,8 @@ class SceneBuilder {
   void seat(const BodyShape& body, const Skeleton& skeleton);
   /// The box or tray that both hands hold.
   void carried(const Skeleton& skeleton);
+  /// The board or crate before somebody.
+  void held(const HeldThing& thing, const Skeleton& skeleton);
   /// Things that look like heads, shoulders or arms: balls on pillars, coats on stands, figures of
   /// boxes.
   void lookalikes(int count, const std::vector<Circle>& keep_free);

@@ -38,6 +38,13 @@ void SceneBuilder::carried(const Skeleton& skeleton) {
       std::atan2(-span.z(), span.x()), material);
 }
 
+void SceneBuilder::held(const HeldThing& thing, const Skeleton& skeleton) {
+  const Vector3d middle = skeleton[Joint::kNeck] + skeleton.chest_R * thing.middle_m;
+  Solid& solid = box(middle, thing.size_m, 0.0, some_material());
+  const Eigen::AngleAxisd tilt(thing.tilt_rad, Vector3d::UnitX());
+  solid.frame_from_solid.linear() = (skeleton.chest_R * tilt).cast<float>();
+}
+
 void SceneBuilder::occluder(const Place& place) {
   const double share = rng_.uniform(0.45, 0.85);  // of the way from the camera
   const double x = share * place.x_m + rng_.normal(0.0, 0.35);

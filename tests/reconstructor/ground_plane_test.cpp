@@ -134,6 +134,42 @@ TEST(CompleteGravity, KeepsToldGravityAndAddsTheHeight) {
   EXPECT_NEAR(*cloud.stamp.gravity.sensor_height_m, 1.1F, 0.05F);
 }
 
+TEST(CompleteGravity, IsNotToldByANarrowShelf) {
+  // A floor whose points beyond a strip of 0.5 m are not seen.
+  Cloud cloud = room(0.5, 0.0);
+  for (Eigen::Vector3f& point_m : cloud.points_m) {
+    const bool beyond_strip = point_m.z() > 1.8F;
+    if (beyond_strip) point_m.setZero();
+  }
+  const auto shelf = find_ground_plane(cloud, {0.0F, 1.0F, 0.0F});
+  ASSERT_TRUE(shelf);  // its share of the points and its extent would do
+  complete_gravity(cloud);
+  EXPECT_EQ(cloud.stamp.gravity.source, GravitySource::kLevel);
+  EXPECT_FALSE(cloud.stamp.gravity.sensor_height_m);
+
+  cloud.stamp.gravity.source = GravitySource::kRecording;  // that is enough to tell a height
+  complete_gravity(cloud);
+  ASSERT_TRUE(cloud.stamp.gravity.sensor_height_m);
+  EXPECT_NEAR(*cloud.stamp.gravity.sensor_height_m, 0.5F, 0.01F);
+}
+
+TEST(CompleteGravity, IsNotToldByATableWithThingsBelow) {
+  Cloud table = room(1.1, 0.3);
+  for (Eigen::Vector3f& point_m : table.points_m) {
+    if (point_m.z() > 2.8F) point_m.setZero();
+  }
+  Cloud with_things_below = table;
+  int seen = 0;
+  for (Eigen::Vector3f& point_m : with_things_below.points_m) {
+    if (point_m.z() > 0.0F && ++seen % 19 == 0) point_m = {0.1F, 2.0F, 2.0F};
+  }
+  complete_gravity(table);
+  EXPECT_EQ(table.stamp.gravity.source, GravitySource::kGroundPlane);
+  ASSERT_TRUE(find_ground_plane(with_things_below, {0.0F, 1.0F, 0.0F}));
+  complete_gravity(with_things_below);
+  EXPECT_EQ(with_things_below.stamp.gravity.source, GravitySource::kLevel);
+}
+
 TEST(CompleteGravity, StaysLevelWithoutGround) {
   Cloud cloud = room(1.1, 0.3, false);
   complete_gravity(cloud);

@@ -147,6 +147,32 @@ TEST(Skeleton, BowsFromTheHipsWithItsLegsUpright) {
   }
 }
 
+TEST(Skeleton, HoldsSomethingBeforeTheTrunkWithBothHands) {
+  Rng rng(11);
+  const BodyShape body = draw_body(rng);
+  int near_hands = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Posture posture = draw_posture(rng, body, "hold");
+    const HeldThing& thing = posture.held;
+    const Skeleton skeleton = make_skeleton(body, posture, {});
+    const Surface surface = make_body_surface(body, posture, skeleton, 1);
+    const Vector3d its_back =
+        skeleton[Joint::kNeck] +
+        skeleton.chest_R * (thing.middle_m - Vector3d(0, 0, 0.5 * thing.size_m.z()));
+    EXPECT_GT(thing.size_m.x() * thing.size_m.y(), 0.04);
+    EXPECT_GT(surface.distance_m(its_back.cast<float>()), 0.0F);
+
+    for (const Joint wrist : {Joint::kWristLeft, Joint::kWristRight}) {
+      const Vector3d from_middle =
+          skeleton.chest_R.transpose() * (skeleton[wrist] - skeleton[Joint::kNeck]) -
+          thing.middle_m;
+      const Vector3d outside = from_middle.cwiseAbs() - 0.5 * thing.size_m;
+      if (outside.maxCoeff() < 0.1) ++near_hands;
+    }
+  }
+  EXPECT_GT(near_hands, 70);  // of 80; short arms do not reach round the largest boards
+}
+
 TEST(Skeleton, HasItsLeftHandOnTheImagesRightWhenItFacesTheCamera) {
   Rng rng(5);
   const BodyShape body = draw_body(rng);
