@@ -229,15 +229,18 @@ std::optional<GroundPlane> find_ground_plane(const Cloud& cloud, const Eigen::Ve
   return ground->plane;
 }
 
-std::optional<GroundPlane> complete_gravity(Cloud& cloud, const GroundPlaneParams& params) {
+std::optional<GroundPlane> complete_gravity(Cloud& cloud, const GroundPlaneParams& untold) {
   // A told direction is good to about half a degree, a level sensor's to nothing.
   constexpr double kToldTiltRad = 0.06;
   Gravity& gravity = cloud.stamp.gravity;
   const bool told = gravity.source != GravitySource::kLevel;
   if (told && gravity.sensor_height_m) return std::nullopt;
-  GroundPlaneParams search_params = told ? params : where_gravity_is_untold(params);
-  if (told) search_params.max_tilt_rad = kToldTiltRad;
-  const auto ground = find(cloud, gravity.down, search_params);
+  GroundPlaneParams params = untold;
+  if (told) {
+    params = {};
+    params.max_tilt_rad = kToldTiltRad;
+  }
+  const auto ground = find(cloud, gravity.down, params);
   if (!ground) return std::nullopt;
   if (!told) {
     gravity.down = ground->plane.down;

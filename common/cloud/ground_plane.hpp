@@ -44,7 +44,8 @@ struct GroundPlaneParams {
 /// What a plane must be that tells gravity itself: boards, beds and shelves make planes in rooms
 /// whose floor is out of sight. Of 162 pairs of a real camera 106 had such a "ground", 0.26 to
 /// 1.05 m below it, and none with these limits; of 198 simulated pairs 181 show the floor, and 180.
-inline GroundPlaneParams where_gravity_is_untold(GroundPlaneParams params = {}) {
+inline GroundPlaneParams where_gravity_is_untold() {
+  GroundPlaneParams params;
   params.min_extent_m = 0.2;
   params.full_extent_m = 1.0;
   return params;
@@ -68,10 +69,11 @@ std::optional<GroundPlane> find_ground_plane(const Cloud& cloud, const Eigen::Ve
 /// Completes `cloud.stamp.gravity` from the ground that the cloud shows.
 ///
 /// Direction of gravity: stays where anybody told it; where nobody did (kLevel), the ground's
-/// normal is taken (kGroundPlane), or, without believable ground, it stays level. Height of the
-/// sensor: where not known yet, the height along gravity over the ground's points. Returns the
-/// ground that told either.
-std::optional<GroundPlane> complete_gravity(Cloud& cloud, const GroundPlaneParams& params = {});
+/// normal is taken (kGroundPlane) of a plane that passes `untold`, or, without one, it stays level.
+/// Height of the sensor: where not known yet, the height along gravity over the ground's points.
+/// Returns the ground that told either.
+std::optional<GroundPlane> complete_gravity(
+    Cloud& cloud, const GroundPlaneParams& untold = where_gravity_is_untold());
 
 /// For a module's status: who told gravity, and how sure the ground is that told it or the height.
 std::string describe(const Gravity& gravity, const std::optional<GroundPlane>& ground);

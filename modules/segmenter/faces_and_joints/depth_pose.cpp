@@ -217,7 +217,8 @@ std::optional<PoseInDepths> DepthPose::see_person(const DepthPicture& picture,
   if (!params_.enabled) return std::nullopt;
   auto seen = ask(picture.of_scan ? *of_scans_ : *of_cameras_, picture, min_person_odds, params_);
   if (!seen || seen->odds < params_.sure_person_odds) {
-    auto bent = ask(*of_bent_, picture, seen ? seen->odds : min_person_odds, params_);
+    const float asked_odds = (seen ? seen->odds : min_person_odds) + params_.bent_surer_by;
+    auto bent = ask(*of_bent_, picture, asked_odds, params_);
     if (bent && (!picture.of_scan || trunk_lean_deg(picture, *bent) > params_.min_scanned_lean_deg))
       seen = std::move(bent);
   }

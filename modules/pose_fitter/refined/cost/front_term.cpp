@@ -69,14 +69,23 @@ Real image_disagreement(const Vec3& front, const View& view, const Observation& 
   return sum;
 }
 
+/// Whether the network sees the back of somebody whose face is in plain sight.
+bool misses_a_plain_face(const ImageLook& look, const View& view, const Observation& observation,
+                         const RefinedParams& params) {
+  if (seen_facing_log_odds(observation.face) <= params.plain_face_log_odds) return false;
+  const Vec3 leftwards = leftwards_in_image(look, observation.head_start.norm(), view);
+  return leftwards.cross(observation.up).dot(view.away) > 0.0;
+}
+
 /// What speaks against a body whose left the network of depths sees on the right.
-Real depth_disagreement(const BodyState& body, const Observation& observation,
+Real depth_disagreement(const BodyState& body, const View& view, const Observation& observation,
                         const RefinedParams& params) {
   const auto distance_m = static_cast<float>(observation.head_start.z());
   if (observation.noise.sigma_m(distance_m) > params.depth_side_most_noise_m) return 0.0;
   for (const ImageLook& look : observation.looks) {
     if (look.network == ImageNetwork::kDepthPose &&
-        takes_sides_otherwise(body, look, kAllParts, params))
+        takes_sides_otherwise(body, look, kAllParts, params) &&
+        !misses_a_plain_face(look, view, observation, params))
       return params.depth_side_log_odds;
   }
   return 0.0;
@@ -99,7 +108,7 @@ Real front_cost(const BodyState& body, const Observation& observation,
   return params.front_cost_per_log_odds *
          (face_disagreement(front, view, observation.face) +
           image_disagreement(front, view, observation, params.image_side_log_odds) +
-          depth_disagreement(body, observation, params));
+          depth_disagreement(body, view, observation, params));
 }
 
 }  // namespace limbcast::pose_fitter::refined

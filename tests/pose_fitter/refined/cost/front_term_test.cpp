@@ -92,6 +92,27 @@ TEST(FrontTerm, MindsLeftWhereTheDepthsShowRight) {
               params.front_cost_per_log_odds * params.depth_side_log_odds, 0.01);
 }
 
+TEST(FrontTerm, BelievesAPlainFaceBeforeDepthsThatShowABack) {
+  const RefinedParams params;
+  const refined::BodyState body = testing::standing_body(2.5, 0.0);
+  const double of_depths = params.front_cost_per_log_odds * params.depth_side_log_odds;
+  const auto plain = static_cast<float>(params.plain_face_log_odds) + 1.0F;
+  const auto cost_with_face = [&](float facing_log_odds, const refined::BodyState& seen_in_depths,
+                                  const refined::BodyState& fitted) {
+    Segment segment = testing::colored(testing::seen(body));
+    segment.image_poses = testing::in_depths(seen_in_depths);
+    auto observation = refined::observe(segment, testing::stamp(), params);
+    observation->face = {facing_log_odds, 0.0F};
+    return front_cost(fitted, *observation, params);
+  };
+  const refined::BodyState back = front_back_flipped(body);
+  EXPECT_NEAR(cost_with_face(plain - 2.0F, back, body), of_depths, 0.01);
+  EXPECT_NEAR(cost_with_face(plain, back, body), 0.0, 0.01);
+  // Depths that show the front as the face does count as ever.
+  EXPECT_NEAR(cost_with_face(plain, body, back),
+              of_depths + params.front_cost_per_log_odds * plain, 0.01);
+}
+
 TEST(FrontTerm, DoesNotMindTheDepthsSidesWhereTheirNoiseIsLarge) {
   const RefinedParams params;
   const refined::BodyState body = testing::standing_body(2.5, 0.0);
