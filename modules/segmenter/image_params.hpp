@@ -79,10 +79,11 @@ struct DepthPoseParams {
   /// What the mirror image adds to a person's log odds at most; of 2485 candidates (20 simulated
   /// sets and rooms, demo.log, stereo_dev) two at most.
   float mirror_adds_odds = 3.0F;
-  /// Below these log odds of a person the network of people who bow, kneel or sit on the ground is
-  /// asked, too, and believed where it is surer. With 6 somebody cut by the image's border in
-  /// demo.log is told where he is not. It was trained before cameras alone: in scans it must see a
-  /// trunk that leans by more than this, too, or a real street without people gets one.
+  /// Below these log odds of a person the network of people who bow, kneel, sit on the ground or
+  /// hold something large is asked, too, and believed where it is surer than the first, and than
+  /// what is asked, by so much: without that a wall between somebody's head and hand is told.
+  /// It was trained before cameras above all: in scans it must see a trunk that leans by more than
+  /// this, too, or a real street without people gets one.
   float sure_person_odds = 4.0F, bent_surer_by = 1.0F;
   float min_scanned_lean_deg = 20.0F;
   /// Spread of a mark across the ray whose log odds to be there are zero [m], by what power of e it

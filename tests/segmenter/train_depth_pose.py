@@ -4,7 +4,7 @@
     train_depth_pose.py OUT.tflite SCANS_OUT.tflite BENT_OUT.tflite TRAINING.bin... --rings SCANS.bin...
                         --rasters SCANS.bin... --bent BENT.bin... [--check CHECK.bin...]
 
-OUT, for cameras, is trained on TRAINING; from there BENT_OUT on BENT and four times as many pictures of TRAINING,
+OUT, for cameras, is trained on TRAINING; from there BENT_OUT on BENT and 1.4 times as many pictures of TRAINING,
 and SCANS_OUT on scans of rotating and of tilting scanners. Files are those of limbcast-write-depth-pictures. After
 each few epochs it prints what the network sees of the files to check by. train_depth_pose.sh makes the pictures and
 runs it. Needs Debian's python3-torch and python3-flatbuffers. On processors that compute with brain floats of 16 bits
@@ -42,8 +42,8 @@ MIRRORED = [0, 1, 2, 3] + [4 + (i ^ 1) for i in range(12)]
 
 CYCLES = ((24, 2e-3), (8, 1e-3))  # epochs, and the highest rate, which falls to nothing in each
 SCAN_CYCLES = ((12, 8e-4), (5, 5e-4))
-BENT_CYCLES = ((6, 4e-4),)
-USUAL_FOR_EACH_BENT = 4  # pictures of usual postures and of things among those of who bends
+BENT_CYCLES = ((10, 6e-4),)
+USUAL_FOR_EACH_BENT = 1.4  # pictures of usual postures and of things among those of who bends or holds something
 MOST_THINGS = 1200  # of a file of scans
 BATCH = 32
 
@@ -421,7 +421,7 @@ def train(network, records, checks, cycles, has_rings=None):
 
 
 def train_on_bent(network, bent, usual, checks):
-    chosen = np.random.default_rng(2).permutation(len(usual))[:USUAL_FOR_EACH_BENT * len(bent)]
+    chosen = np.random.default_rng(2).permutation(len(usual))[:int(USUAL_FOR_EACH_BENT * len(bent))]
     return train(network, np.concatenate([bent, usual[np.sort(chosen)]]), checks, BENT_CYCLES)
 
 

@@ -4,7 +4,7 @@
 # modules/segmenter/models. Build again afterwards, and fit the confidences of the refined fitter anew
 # (tests/pose_fitter/train.sh). Needs Debian's python3-torch and python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   24780 simulated frames, 16 GB, an hour and a half on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   29030 simulated frames, 19 GB, two hours on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
 # Run it after segments or range images changed. Training takes two hours on two cores without brain
@@ -69,7 +69,7 @@ simulate n_wide_nohuman nohuman laser 300 20048 "${wide[@]}"
 simulate n_street_nohuman nohuman laser 400 20049 "${few[@]}" --street-share 1 --max-camera-height-m 2.1
 
 cameras_and_scans=("${folders[@]}")
-# People who bow, kneel and sit on the ground, before cameras.
+# People who bow, kneel and sit on the ground, and who hold boards and crates, mostly before cameras.
 folders=()
 simulate b_stereo general stereo 300 20111 --posture bow "${children[@]}" "${far[@]}"
 simulate b_depth general depth 300 20112 --posture bow "${gray[@]}" "${children[@]}" "${far[@]}"
@@ -78,6 +78,21 @@ simulate b_depth_kneel general depth 150 20121 --posture kneel "${gray[@]}" --ch
 simulate b_stereo_kneel general stereo 120 20125 --posture kneel --child-share 0.25 "${near[@]}"
 simulate b_depth_floor general depth 150 20131 --posture floor "${gray[@]}" --child-share 0.25 "${far[@]}"
 simulate b_stereo_floor general stereo 120 20135 --posture floor --child-share 0.25 "${near[@]}"
+simulate b_stereo2 general stereo 500 20141 --posture bow "${children[@]}" "${far[@]}"
+simulate b_depth2 general depth 400 20142 --posture bow "${gray[@]}" "${children[@]}" "${far[@]}"
+simulate b_multi2 multi stereo 200 20143 --posture bow --child-share 0.15
+simulate b_depth_kneel2 general depth 250 20144 --posture kneel "${gray[@]}" --child-share 0.25 "${far[@]}"
+simulate b_stereo_kneel2 general stereo 300 20145 --posture kneel --child-share 0.25 "${near[@]}"
+simulate b_depth_floor2 general depth 400 20146 --posture floor "${gray[@]}" --child-share 0.25 "${far[@]}"
+simulate b_stereo_floor2 general stereo 400 20147 --posture floor --child-share 0.25 "${near[@]}"
+simulate b_multi_floor multi stereo 150 20148 --posture floor --child-share 0.15
+simulate b_laser_bow general laser 150 20151 --posture bow "${children[@]}" "${far[@]}"
+simulate b_laser_floor general laser 150 20153 --posture floor "${children[@]}" "${far[@]}"
+simulate h_stereo general stereo 400 20161 --posture hold "${children[@]}" "${near[@]}"
+simulate h_depth general depth 400 20162 --posture hold "${gray[@]}" "${children[@]}" "${far[@]}"
+simulate h_multi multi stereo 150 20163 --posture hold --child-share 0.15
+simulate h_stereo_near general stereo 250 20164 --posture hold --child-share 0.1 --min-distance-m 0.8 --max-distance-m 2.5
+simulate h_laser general laser 150 20165 --posture hold "${children[@]}" "${far[@]}"
 bent=("${folders[@]}")
 # Scans of rotating scanners: streets, where people walk and wear coats, farther away than rooms are wide.
 folders=()

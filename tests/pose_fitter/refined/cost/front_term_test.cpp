@@ -109,8 +109,8 @@ TEST(FrontTerm, BelievesAPlainFaceBeforeDepthsThatShowABack) {
   EXPECT_NEAR(cost_with_face(plain - 2.0F, back, body), of_depths, 0.01);
   EXPECT_NEAR(cost_with_face(plain, back, body), 0.0, 0.01);
   // Depths that show the front as the face does count as ever.
-  EXPECT_NEAR(cost_with_face(plain, body, back),
-              of_depths + params.front_cost_per_log_odds * plain, 0.01);
+  EXPECT_NEAR(cost_with_face(plain, body, back), of_depths + params.front_cost_per_log_odds * plain,
+              0.01);
 }
 
 TEST(FrontTerm, DoesNotMindTheDepthsSidesWhereTheirNoiseIsLarge) {
