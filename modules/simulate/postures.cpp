@@ -176,8 +176,8 @@ Posture holding(Rng& rng, const BodyShape& body) {
     stand(rng, posture);
   }
   move_trunk(rng, posture);
-  posture.held = draw_held_thing(rng, body, posture.seated);
-  const HeldThing& thing = posture.held;
+  const HeldThing thing = draw_held_thing(rng, body, posture.seated);
+  posture.held = thing;
   const bool from_below = rng.chance(0.3);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const double inward = side == Side::kLeft ? 1.0 : -1.0;

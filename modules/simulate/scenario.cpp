@@ -173,7 +173,7 @@ void furnish(SceneBuilder& scene, Rng& rng, const ScenarioParams& params,
   for (const Person& person : persons) {
     if (person.posture.seated) scene.seat(person.body, person.skeleton);
     if (person.posture.name == "carry") scene.carried(person.skeleton);
-    if (person.posture.name == "hold") scene.held(person.posture.held, person.skeleton);
+    if (person.posture.held) scene.held(*person.posture.held, person.skeleton);
   }
   if (!persons.empty() && params.set != SetKind::kSequence && rng.chance(params.occluder_share)) {
     scene.occluder(persons[rng.pick(static_cast<int>(persons.size()))].place);

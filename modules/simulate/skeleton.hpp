@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "common/human_model/joints.hpp"
@@ -34,7 +35,7 @@ struct LegPose {
 /// A board or crate that is held before the trunk or the face. Chest's frame: x to the own left, y
 /// up, z forward.
 struct HeldThing {
-  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();    ///< width, height, thickness; zero = none
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();    ///< width, height, thickness
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();  ///< from the neck joint
   double tilt_rad = 0.0;                               ///< its upper edge away from the body
 };
@@ -50,7 +51,7 @@ struct Posture {
          head_roll_rad = 0.0;   ///< to the own left, down, to the own left
   std::array<ArmPose, 2> arms;  ///< index: Side
   std::array<LegPose, 2> legs;
-  HeldThing held;
+  std::optional<HeldThing> held;
   bool seated = false;
   int pointing_side = -1;  ///< value of Side, -1 = points with no arm
 };

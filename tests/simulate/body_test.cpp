@@ -153,7 +153,8 @@ TEST(Skeleton, HoldsSomethingBeforeTheTrunkWithBothHands) {
   int near_hands = 0;
   for (int i = 0; i < 40; ++i) {
     const Posture posture = draw_posture(rng, body, "hold");
-    const HeldThing& thing = posture.held;
+    ASSERT_TRUE(posture.held);
+    const HeldThing& thing = *posture.held;
     const Skeleton skeleton = make_skeleton(body, posture, {});
     const Surface surface = make_body_surface(body, posture, skeleton, 1);
     const Vector3d its_back =

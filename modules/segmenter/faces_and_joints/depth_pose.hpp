@@ -28,8 +28,8 @@ std::optional<ImagePose> in_pixels(const PoseInDepths& pose, const RangeImage& v
 
 /// limbcast's own networks of poses (../models/README.md), one for cameras and one for scans: they
 /// see a person's joints in depths alone, left and right from how a body is built, and how far away
-/// each is. Where they are not sure of a person a third one is asked, which knows people who bend
-/// so far that their heads stand before their trunks, and is believed of these alone. Trained on
+/// each is. Where they are not sure of a person a third one is asked, which knows people who bow,
+/// kneel, sit on the ground or hold something large, and is believed where it is surer. Trained on
 /// simulated people by tests/segmenter/train_depth_pose.sh. Several threads may use one object.
 class DepthPose {
  public:
