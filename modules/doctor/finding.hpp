@@ -16,7 +16,7 @@ struct Finding {
   std::string check;  ///< what was looked at, e.g. "multicast route"
   std::string text;   ///< what was found
   std::string
-      command;  ///< what mends it, to be typed as it stands; empty where nothing is to be done
+      command;  ///< what mends it, to be typed as it stands; empty where no command mends it
 };
 
 using Findings = std::vector<Finding>;

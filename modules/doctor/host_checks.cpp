@@ -22,16 +22,29 @@ const Interface* find(const HostFacts& host, const std::string& name) {
 
 bool is_loopback(const std::string& interface) { return interface == "lo"; }
 
-/// The device that most likely leads to the other hosts.
+/// The device that most likely leads to the other hosts; empty where there is none.
 std::string outer_interface(const HostFacts& host) {
   if (!host.default_interface.empty()) return host.default_interface;
-  for (const Interface& interface : host.interfaces)
-    if (interface.up && interface.carrier && !is_loopback(interface.name)) return interface.name;
-  return "eth0";
+  std::string unconnected;
+  for (const Interface& interface : host.interfaces) {
+    if (is_loopback(interface.name)) continue;
+    if (interface.up && interface.carrier) return interface.name;
+    if (unconnected.empty()) unconnected = interface.name;
+  }
+  return unconnected;
 }
 
 std::string route_command(const std::string& interface) {
   return "ip route replace 224.0.0.0/4 dev " + interface;
+}
+
+/// A route that does not lead to the other hosts, and the command that mends it.
+Finding no_outer_route(const HostFacts& host, const std::string& text) {
+  const std::string interface = outer_interface(host);
+  if (interface.empty())
+    return {Level::kProblem, "multicast route",
+            text + ", and this host has no network device but lo: add one", ""};
+  return {Level::kProblem, "multicast route", text, route_command(interface)};
 }
 
 std::string kilobytes(std::int64_t bytes) {
@@ -63,15 +76,15 @@ std::string url_command(const UrlFacts& url, int ttl, std::int64_t size) {
 Findings check_route(const HostFacts& host, const UrlFacts& url) {
   const std::string name = "multicast route";
   if (!host.multicast_route) {
-    return {{Level::kProblem, name, "none to " + url.group + ": no message can be sent",
-             route_command(url.ttl == 0 ? "lo" : outer_interface(host))}};
+    const std::string text = "none to " + url.group + ": no message can be sent";
+    if (url.ttl == 0) return {{Level::kProblem, name, text, route_command("lo")}};
+    return {no_outer_route(host, text)};
   }
   const Route& route = *host.multicast_route;
   if (is_loopback(route.interface)) {
     if (url.ttl == 0) return {{Level::kGood, name, "by lo, on this host only", ""}};
-    return {{Level::kProblem, name,
-             "by lo: nothing leaves this host although ttl=" + std::to_string(url.ttl),
-             route_command(outer_interface(host))}};
+    return {no_outer_route(
+        host, "by lo: nothing leaves this host although ttl=" + std::to_string(url.ttl))};
   }
   Findings findings;
   if (const Interface* interface = find(host, route.interface))

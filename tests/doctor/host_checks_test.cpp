@@ -51,6 +51,23 @@ TEST(CheckRoute, SendsToOtherHostsByTheDeviceThatLeadsThere) {
   EXPECT_EQ(mend(check_route(host, kNetwork)), "ip route replace 224.0.0.0/4 dev eth0");
 }
 
+TEST(CheckRoute, ProposesNoDeviceThatTheHostHasNot) {
+  HostFacts host = good_host();
+  host.multicast_route = Route{"lo", 4};
+  host.default_interface.clear();
+  host.interfaces = {{"lo", true, false, true}, {"wlan0", true, true, false}};
+  EXPECT_EQ(mend(check_route(host, kNetwork)), "ip route replace 224.0.0.0/4 dev wlan0");
+  host.interfaces.push_back({"usb0", true, true, true});
+  EXPECT_EQ(mend(check_route(host, kNetwork)), "ip route replace 224.0.0.0/4 dev usb0");
+  host.interfaces.resize(1);
+  const Finding finding = check_route(host, kNetwork).front();
+  EXPECT_EQ(finding.level, Level::kProblem);
+  EXPECT_EQ(finding.text,
+            "by lo: nothing leaves this host although ttl=1, and this host has no network device "
+            "but lo: add one");
+  EXPECT_EQ(finding.command, "");
+}
+
 TEST(CheckRoute, NamesADeviceThatIsDownOrTakesNoMulticastOrHasNoLink) {
   HostFacts host = good_host();
   host.interfaces[0].up = false;
