@@ -32,8 +32,4 @@ Posture draw_pointing(Rng& rng, const BodyShape& body, const PointingParams& par
 /// A step of walking; `phase_rad` grows by 2 pi for two steps.
 Posture walking(const BodyShape& body, double phase_rad);
 
-/// Smallest distance [m] between the middle of an arm's forearm and hand and the rest of the body's
-/// skin (negative: inside).
-double arm_clearance_m(const BodyShape& body, const Posture& posture, Side side);
-
 }  // namespace limbcast::simulate

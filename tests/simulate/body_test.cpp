@@ -5,6 +5,7 @@
 
 #include "common/units.hpp"
 #include "modules/simulate/body_surface.hpp"
+#include "modules/simulate/posture_parts.hpp"
 #include "modules/simulate/postures.hpp"
 
 namespace limbcast::simulate {
