@@ -68,6 +68,8 @@ void declare(config::Section& section, SimulateOptions& options) {
               "of frames with something before a person", {0.0, 1.0});
   section.add("street-share", params.scenario.street_share, "",
               "of frames among trunks, poles, bushes and cars, not in a room", {0.0, 1.0});
+  section.add("head-above-share", params.scenario.head_above_share, "",
+              "of people whose head is above the image, their chest in it", {0.0, 1.0});
   section.add("child-share", params.scenario.body.child_share, "", "of people who are children",
               {0.0, 1.0});
   section.add("coat-share", params.scenario.body.coat_share, "", "of people who wear thick coats",

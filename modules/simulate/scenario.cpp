@@ -72,11 +72,40 @@ bool in_view(const PinholeCamera& camera, const Isometry3d& sensor_from_world,
          pixel.y() < camera.height - margin_px;
 }
 
+/// How much of somebody is in the image.
+enum class Framing { kWithHands, kWithHead, kHeadAbove };
+
+Framing draw_framing(Rng& rng, const ScenarioParams& params) {
+  if (params.head_above_share > 0.0 && rng.chance(params.head_above_share))
+    return Framing::kHeadAbove;
+  return rng.chance(params.cut_share) ? Framing::kWithHead : Framing::kWithHands;
+}
+
+bool is_framed(Framing framing, const Skeleton& world, const PinholeCamera& camera,
+               const Isometry3d& sensor_from_world) {
+  constexpr double kMargin_px = 4.0, kMarginAroundWhole_px = 12.0;
+  const auto sees = [&](const Vector3d& point, double margin_px) {
+    return in_view(camera, sensor_from_world, point, margin_px);
+  };
+  switch (framing) {
+    case Framing::kWithHands:
+      return sees(world[Joint::kHead], kMarginAroundWhole_px) &&
+             sees(world.head_top, kMarginAroundWhole_px) && sees(world.fingertip[0], kMargin_px) &&
+             sees(world.fingertip[1], kMargin_px);
+    case Framing::kWithHead:
+      return sees(world[Joint::kHead], kMargin_px);
+    case Framing::kHeadAbove:
+      return sees(world[Joint::kChest], kMargin_px) &&
+             camera.project((sensor_from_world * world[Joint::kHead]).cast<float>()).y() < 0.0F;
+  }
+  return false;
+}
+
 /// A place in view where nobody stands yet; false where none was found.
 bool find_place(Rng& rng, const ScenarioParams& params, const PinholeCamera& camera,
                 const Isometry3d& sensor_from_world, const std::vector<Person>& others,
                 Person& person) {
-  const bool may_be_cut = rng.chance(params.cut_share);
+  const Framing framing = draw_framing(rng, params);
   for (int attempt = 0; attempt < 60; ++attempt) {
     person.place.z_m = rng.uniform(params.min_distance_m, params.max_distance_m);
     const double half_width = 0.5 * camera.width / camera.fx;
@@ -88,14 +117,7 @@ bool find_place(Rng& rng, const ScenarioParams& params, const PinholeCamera& cam
     });
     if (!free) continue;
     const Skeleton world = make_skeleton(person.body, person.posture, person.place);
-    const double margin = may_be_cut ? 4.0 : 12.0;
-    const bool head = in_view(camera, sensor_from_world, world[Joint::kHead], margin) &&
-                      (may_be_cut || in_view(camera, sensor_from_world, world.head_top, margin));
-    if (!head) continue;
-    if (!may_be_cut && !(in_view(camera, sensor_from_world, world.fingertip[0], 4.0) &&
-                         in_view(camera, sensor_from_world, world.fingertip[1], 4.0))) {
-      continue;
-    }
+    if (!is_framed(framing, world, camera, sensor_from_world)) continue;
     person.skeleton = world;
     return true;
   }

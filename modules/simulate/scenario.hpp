@@ -23,6 +23,7 @@ struct ScenarioParams {
   double occluder_share = 0.2;  ///< of frames with something between camera and a person
   double street_share = 0.0;    ///< of frames that are in a street, not in a room
   double cut_share = 0.15;      ///< of people who may stand partly out of the image
+  double head_above_share = 0;  ///< of people whose head is above the image, their chest in it
   double min_camera_height_m = 0.9, max_camera_height_m = 1.6;
   double pitch_down_deg = 0.0;                         ///< mean pitch of the camera
   double pitch_sigma_deg = 7.0, roll_sigma_deg = 1.0;  ///< of the camera

@@ -66,6 +66,30 @@ TEST(SimulateFrame, ShowsAsManyPeopleAsTheSetHas) {
   }
 }
 
+TEST(Scenario, ShowsPeopleWhoseHeadsAreAboveTheImageWhereAsked) {
+  ScenarioParams params;
+  params.min_distance_m = 0.6;
+  params.max_distance_m = 2.2;
+  params.max_camera_height_m = 1.1;
+  const auto heads_above = [&](double share) {
+    params.head_above_share = share;
+    int above = 0;
+    for (int i = 0; i < 20; ++i) {
+      for (const Person& person : draw_scenario(params, kWide, 1, i).persons) {
+        const auto row = [&](Joint joint) {
+          return kWide.project(person.skeleton[joint].cast<float>()).y();
+        };
+        if (row(Joint::kHead) >= 0.0F) continue;
+        ++above;
+        EXPECT_GT(row(Joint::kChest), 0.0F) << i;
+      }
+    }
+    return above;
+  };
+  EXPECT_EQ(heads_above(0.0), 0);
+  EXPECT_GE(heads_above(1.0), 15);
+}
+
 /// All that is drawn for 40 frames as one number, weighted so that swapped draws change it.
 double sum_of_draws(SimulatorParams params) {
   params.scenario.occluder_share = 0.5;
