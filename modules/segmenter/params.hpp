@@ -41,6 +41,11 @@ struct GroundParams {
   float inlier_distance_m = 0.04F;
   /// Share of the cloud that must lie on the plane; with less no ground is in sight.
   float min_share = 0.02F;
+  /// How far it must spread in its narrower direction (standard deviation) where nobody told the
+  /// sensor's height [m]: boards and laps do not. Of 16 true grounds that were seen so 15 spread by
+  /// 0.34 to 1.1 m, of 19 depth pictures of a man near a real camera all take the lower end of his
+  /// trunk for the ground otherwise, which spreads by 0.05 to 0.1 m.
+  float min_extent_m = 0.3F;
 };
 
 /// Ring template on the depth image.

@@ -1,6 +1,7 @@
 #include "modules/segmenter/scene/ground.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,27 @@ bool refit(const std::vector<Eigen::Vector3f>& points, float band_m, Ground& gro
   return true;
 }
 
+/// How far (standard deviation) the points on the plane spread along it, in the narrower
+/// direction [m].
+float narrower_extent_m(const std::vector<Eigen::Vector3f>& points, const Ground& ground,
+                        float band_m) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (const Eigen::Vector3f& point : points) {
+    if (std::abs(ground.height_m - ground.down.dot(point)) > band_m) continue;
+    const Eigen::Vector3d p = point.cast<double>();
+    sum += p;
+    squares += p * p.transpose();
+    ++count;
+  }
+  if (count == 0) return 0.0F;
+  const Eigen::Vector3d mean = sum / count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      squares / count - mean * mean.transpose(), Eigen::EigenvaluesOnly);
+  return static_cast<float>(std::sqrt(std::max(0.0, solver.eigenvalues()[1])));
+}
+
 }  // namespace
 
 std::optional<Ground> find_ground(const Cloud& cloud, const GroundParams& params) {
@@ -105,9 +127,15 @@ std::optional<Ground> find_ground(const Cloud& cloud, const GroundParams& params
   for (const float band : {0.12F, 0.08F, params.inlier_distance_m, params.inlier_distance_m}) {
     if (!refit(points, band, ground, inliers)) return std::nullopt;
   }
-  if (ground.down.dot(gravity.down) < std::cos(params.max_tilt_rad))
-    return Ground{gravity.down, *layer};
-  if (static_cast<float>(inliers) < min_count) return std::nullopt;
+  const bool is_tilted = ground.down.dot(gravity.down) < std::cos(params.max_tilt_rad);
+  if (is_tilted)
+    ground = {gravity.down, *layer};
+  else if (static_cast<float>(inliers) < min_count)
+    return std::nullopt;
+  if (!gravity.sensor_height_m &&
+      (ground.height_m < params.min_sensor_height_m ||
+       narrower_extent_m(points, ground, params.inlier_distance_m) < params.min_extent_m))
+    return std::nullopt;
   return ground;
 }
 
