@@ -42,10 +42,10 @@ struct GroundParams {
   /// Share of the cloud that must lie on the plane; with less no ground is in sight.
   float min_share = 0.02F;
   /// How far it must spread in its narrower direction (standard deviation) where nobody told the
-  /// sensor's height [m]: boards and laps do not. Of 16 true grounds that were seen so 15 spread by
-  /// 0.34 to 1.1 m, of 19 depth pictures of a man near a real camera all take the lower end of his
-  /// trunk for the ground otherwise, which spreads by 0.05 to 0.1 m.
-  float min_extent_m = 0.3F;
+  /// sensor's height [m], as in GroundPlaneParams. The lower end of a man's trunk, which all of 19
+  /// pictures of a real depth camera had for the ground without this, spreads by up to 0.05 m; of
+  /// 15 true grounds that were seen so 14 spread by 0.34 to 1.1 m.
+  float min_extent_m = 0.12F;
 };
 
 /// Ring template on the depth image.
@@ -157,6 +157,9 @@ struct OverlookedParams {
   /// Lowest log odds of a person, of the network of depths, and how much lower they may be where
   /// the head's place is a guess yet.
   float min_person_odds = 4.0F, guess_costs_odds = 3.0F;
+  /// A head that the depths around it nearly tell (log odds) needs less, where the network marks it
+  /// so near [m].
+  float min_likely_head_odds = -2.0F, min_likely_person_odds = 2.5F, max_likely_error_m = 0.1F;
   /// Log odds of such a head: sure, as by `HiddenHeadParams::place_odds`.
   float head_odds = 3.0F;
   // Candidates that were taken for parts of somebody beside them: hands and chests, and heads of

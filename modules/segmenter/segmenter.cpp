@@ -149,13 +149,18 @@ std::vector<std::int16_t> Segmenter::grow_refined(const Scene& scene,
   FoundPeople with_headless = people;
   add_headless(with_headless);
   // What is left may be somebody's whose head is in sight: then all grow anew.
-  const std::vector<HeadCandidate> bodies =
+  const OverlookedBodies bodies =
       find_overlooked_bodies(scene, surfaces, with_headless, {params_, surfaces_, depth_pose_});
-  if (bodies.empty()) {
+  if (bodies.heads.empty()) {
     people = std::move(with_headless);
   } else {
-    find_with(bodies);
+    find_with(bodies.heads);
     add_headless(people);
+  }
+  const std::size_t first = people.heads.size();
+  for (const HeadlessSurface& body : bodies.headless) {
+    if (people.labels[body.points.front()] == kNobody)
+      add_headless_person(body, params_.overlooked.head_odds, first, params_.hidden_heads, people);
   }
   add_floating_arms(
       scene.lattice,
@@ -176,19 +181,25 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
   std::vector<HeadCandidate> seen;
   if (auto refused = find_overlooked(scene.lattice, people, params); !refused.empty()) {
     const std::vector<std::int16_t> labels = grow_from(scene, refused, &people.labels);
-    seen = heads_of_people(scene, {std::move(refused), labels, 0, params.min_person_odds}, params_,
-                           depth_pose_);
+    seen = heads_of_people(scene,
+                           {std::move(refused),
+                            labels,
+                            0,
+                            {params.min_person_odds},
+                            BodyLimits{params.min_likely_person_odds, params.max_likely_error_m}},
+                           params_, depth_pose_);
   }
   if (auto merged = find_merged(scene.lattice, people, params); !merged.empty()) {
     // They and the people whom they were taken for share the points anew.
     std::vector<HeadCandidate> all = people.heads;
     all.insert(all.end(), merged.begin(), merged.end());
     const std::vector<std::int16_t> labels = grow_from(scene, std::move(all));
-    merged =
-        heads_of_people(scene,
-                        {std::move(merged), labels, static_cast<std::int16_t>(people.heads.size()),
-                         params.min_merged_person_odds, params.max_merged_error_m},
-                        params_, depth_pose_);
+    merged = heads_of_people(scene,
+                             {std::move(merged),
+                              labels,
+                              static_cast<std::int16_t>(people.heads.size()),
+                              {params.min_merged_person_odds, params.max_merged_error_m}},
+                             params_, depth_pose_);
     for (HeadCandidate& head : merged) head.stands_beside = true;
     seen.insert(seen.end(), merged.begin(), merged.end());
   }

@@ -4,7 +4,7 @@
 # modules/segmenter/models. Build again afterwards, and fit the confidences of the refined fitter anew
 # (tests/pose_fitter/train.sh). Needs Debian's python3-torch and python3-flatbuffers.
 # Usage: tests/segmenter/train_depth_pose.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   29030 simulated frames, 19 GB, two hours on two cores; sets and pictures that are there stay
+#   SIMULATED_DIR   30930 simulated frames, 19 GB, two hours on two cores; sets and pictures that are there stay
 #   DATA_DIR        the folder of laser_dev, stereo_dev and rgbd_pointing: to check on, nobody there is trained on
 #   BIN_DIR         default: build/release/bin
 # Run it after segments or range images changed. Training takes two hours on two cores without brain
@@ -69,7 +69,8 @@ simulate n_wide_nohuman nohuman laser 300 20048 "${wide[@]}"
 simulate n_street_nohuman nohuman laser 400 20049 "${few[@]}" --street-share 1 --max-camera-height-m 2.1
 
 cameras_and_scans=("${folders[@]}")
-# People who bow, kneel and sit on the ground, and who hold boards and crates, mostly before cameras.
+# People who bow, kneel and sit on the ground, who hold boards and crates, and whose heads are above the image, mostly
+# before cameras.
 folders=()
 simulate b_stereo general stereo 300 20111 --posture bow "${children[@]}" "${far[@]}"
 simulate b_depth general depth 300 20112 --posture bow "${gray[@]}" "${children[@]}" "${far[@]}"
@@ -93,6 +94,15 @@ simulate h_depth general depth 400 20162 --posture hold "${gray[@]}" "${children
 simulate h_multi multi stereo 150 20163 --posture hold --child-share 0.15
 simulate h_stereo_near general stereo 250 20164 --posture hold --child-share 0.1 --min-distance-m 0.8 --max-distance-m 2.5
 simulate h_laser general laser 150 20165 --posture hold "${children[@]}" "${far[@]}"
+near_rooms=(--min-camera-height-m 0.4 --max-camera-height-m 1.3 --min-distance-m 0.6 --max-distance-m 2.4)
+above=("${near_rooms[@]}" --head-above-share 1)
+simulate a_stereo general stereo 400 20171 "${children[@]}" "${above[@]}"
+simulate a_depth general depth 400 20172 "${gray[@]}" "${children[@]}" "${above[@]}"
+simulate a_stereo_pointing pointing stereo 300 20173 --child-share 0.15 "${above[@]}"
+simulate a_depth_pointing pointing depth 250 20174 "${gray[@]}" --child-share 0.15 "${above[@]}"
+simulate a_multi multi stereo 150 20175 --child-share 0.15 "${near_rooms[@]}" --head-above-share 0.5
+simulate a_stereo_nohuman nohuman stereo 250 20176 "${near_rooms[@]}"
+simulate a_depth_nohuman nohuman depth 150 20177 "${gray[@]}" "${near_rooms[@]}"
 bent=("${folders[@]}")
 # Scans of rotating scanners: streets, where people walk and wear coats, farther away than rooms are wide.
 folders=()

@@ -1,10 +1,11 @@
 #include "modules/segmenter/overlooked/hidden_heads.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
+
+#include "modules/segmenter/overlooked/head_view.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -38,79 +39,8 @@ bool has_size_of_body(const Surface& surface, const HiddenHeadParams& params) {
          surface.extent_m <= params.max_extent_m;
 }
 
-/// What the sensor does not see: beyond the first and the last measured point of each row, since a
-/// stereo camera measures nothing at the edge that only one of its images shows, and behind people.
-class View {
- public:
-  View(const Lattice& lattice, const FoundPeople& found, const HiddenHeadParams& params)
-      : lattice_(lattice), found_(found), params_(params) {
-    for (int v = 0; v < lattice.height; ++v) {
-      int first = 0, last = lattice.width - 1;
-      while (first < lattice.width && !lattice.find(first, v)) ++first;
-      while (last > first && !lattice.find(last, v)) --last;
-      seen_.push_back({first, last});
-    }
-    find_principal_point();
-  }
-
-  /// Whether a ball about a place (level frame) is out of sight.
-  bool hides_head(const Eigen::Vector3f& center_m) const {
-    const Eigen::Vector3f p = lattice_.frame.to_sensor(center_m);
-    if (p.z() < kNearest_m) return true;
-    constexpr int kSteps = 2, kMinShare_percent = 70;
-    int hidden = 0, all = 0;
-    for (int y = -kSteps; y <= kSteps; ++y) {
-      for (int x = -kSteps; x <= kSteps; ++x) {
-        const Eigen::Vector3f offset(static_cast<float>(x), static_cast<float>(y), 0.0F);
-        hidden += out_of_sight(p + params_.head_radius_m / kSteps * offset) ? 1 : 0;
-        ++all;
-      }
-    }
-    return 100 * hidden >= kMinShare_percent * all;
-  }
-
- private:
-  static constexpr float kNearest_m = 0.2F;
-
-  /// Any measured point tells it.
-  void find_principal_point() {
-    for (std::size_t i = 0; i < lattice_.size(); ++i) {
-      if (lattice_.depth_m[i] <= 0.0F) continue;
-      const Eigen::Vector3f p = lattice_.frame.to_sensor(lattice_.level_m[i]);
-      const int u = static_cast<int>(i) % lattice_.width, v = static_cast<int>(i) / lattice_.width;
-      const Eigen::Vector2f px(static_cast<float>(u), static_cast<float>(v));
-      principal_px_ = px - lattice_.focal_px / p.z() * p.head<2>();
-      return;
-    }
-  }
-
-  bool out_of_sight(const Eigen::Vector3f& sensor_m) const {
-    const Eigen::Vector2f px =
-        principal_px_ + lattice_.focal_px / sensor_m.z() * sensor_m.head<2>();
-    const int u = static_cast<int>(std::lround(px.x())), v = static_cast<int>(std::lround(px.y()));
-    if (v < 0 || v >= lattice_.height) return true;
-    const auto& [first, last] = seen_[static_cast<std::size_t>(v)];
-    if (u < first || u > last) return true;
-    const std::size_t i = lattice_.index(u, v);
-    const float depth_m = lattice_.depth_m[i];
-    return is_a_persons(i) && depth_m > 0.0F && depth_m < sensor_m.z() - params_.min_gap_m;
-  }
-
-  bool is_a_persons(std::size_t i) const {
-    const std::int16_t label = found_.labels[i];
-    return label >= 0 &&
-           found_.person_odds[static_cast<std::size_t>(label)] >= params_.min_hider_odds;
-  }
-
-  const Lattice& lattice_;
-  const FoundPeople& found_;
-  const HiddenHeadParams& params_;
-  std::vector<std::array<int, 2>> seen_;
-  Eigen::Vector2f principal_px_ = Eigen::Vector2f::Zero();
-};
-
 /// The likeliest place of the head over a surface that is out of sight.
-std::optional<Eigen::Vector3f> guess_head(const View& view, const Extent& extent,
+std::optional<Eigen::Vector3f> guess_head(const HeadView& view, const Extent& extent,
                                           const HiddenHeadParams& params) {
   std::optional<Eigen::Vector3f> best;
   float least = 1e9F;
@@ -197,7 +127,7 @@ std::vector<HeadlessSurface> find_headless_surfaces(const Lattice& lattice,
                                                     const FoundPeople& found,
                                                     const HiddenHeadParams& params) {
   if (!lattice.frame.ground_known) return {};
-  const View view(lattice, found, params);
+  const HeadView view(lattice, found, params);
   std::vector<HeadlessSurface> headless;
   for (Extent& extent : free_extents(lattice, surfaces, found, params, params.min_height_m)) {
     const auto head_m = guess_head(view, extent, params);
@@ -222,10 +152,25 @@ std::vector<HeadlessSurface> find_body_parts(const Lattice& lattice, const Surfa
   return largest_first(std::move(parts));
 }
 
+void add_headless_person(const HeadlessSurface& surface, float odds, std::size_t first,
+                         const HiddenHeadParams& params, FoundPeople& found) {
+  // Somebody before a body may part it: its other surfaces are the same person's.
+  const auto known =
+      std::find_if(found.heads.begin() + static_cast<std::ptrdiff_t>(first), found.heads.end(),
+                   [&](const HeadCandidate& head) {
+                     return level_distance_m(head, surface.head.center_m) < params.min_distance_m;
+                   });
+  const auto label = static_cast<std::int16_t>(known - found.heads.begin());
+  for (const std::uint32_t i : surface.points) found.labels[i] = label;
+  if (known != found.heads.end()) return;
+  found.heads.push_back(surface.head);
+  found.person_odds.push_back(odds);
+}
+
 void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
                          const SurfaceClassifier& classifier, const HiddenHeadParams& params,
                          FoundPeople& found, const BodyOpinion& opinion) {
-  const auto first = static_cast<std::ptrdiff_t>(found.heads.size());
+  const std::size_t first = found.heads.size();
   int asked = 0;
   for (HeadlessSurface& surface : opinion
                                       ? find_body_parts(lattice, surfaces, found, params)
@@ -248,16 +193,7 @@ void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,
                                  probability(judgement.least)}});
       continue;
     }
-    // Somebody before a body may part it: its other surfaces are the same person's.
-    const auto known = std::find_if(
-        found.heads.begin() + first, found.heads.end(), [&](const HeadCandidate& head) {
-          return level_distance_m(head, surface.head.center_m) < params.min_distance_m;
-        });
-    const auto label = static_cast<std::int16_t>(known - found.heads.begin());
-    for (const std::uint32_t i : surface.points) found.labels[i] = label;
-    if (known != found.heads.end()) continue;
-    found.heads.push_back(surface.head);
-    found.person_odds.push_back(judgement.odds);
+    add_headless_person(surface, judgement.odds, first, params, found);
   }
 }
 

@@ -42,6 +42,11 @@ struct SeenBody {
 /// Nothing where the image does not tell.
 using BodyOpinion = std::function<std::optional<SeenBody>(const HeadlessSurface&)>;
 
+/// Adds a body to the people who were found: a part of one of them, from `first` on, whose head is
+/// guessed to be there, too, or somebody else with these log odds.
+void add_headless_person(const HeadlessSurface& surface, float odds, std::size_t first,
+                         const HiddenHeadParams& params, FoundPeople& found);
+
 /// Adds those that are a body's to the people who were found, and the others to the rejected.
 /// Without an image's opinion the head must be out of sight: else it would have been found.
 void add_headless_people(const Lattice& lattice, const Surfaces& surfaces,

@@ -84,9 +84,15 @@ std::vector<HeadCandidate> heads_of_people(const Scene& scene, AskedHeads asked,
     const LabelledPerson body{asked.labels, label,
                               scene.lattice.frame.to_sensor(heads[k].center_m)};
     const auto picture = draw_depths(scene, body, params.depth_pose.picture);
-    const auto pose = picture ? network.see_person(*picture, asked.min_person_odds) : std::nullopt;
-    heads[k].told_by_body =
-        pose && (pose->places_m[index(Joint::kHead)] - body.head_m).norm() < asked.max_head_error_m;
+    const auto meets = [&](const BodyLimits& limits) {
+      const auto pose =
+          picture ? network.see_person(*picture, limits.min_person_odds) : std::nullopt;
+      return pose &&
+             (pose->places_m[index(Joint::kHead)] - body.head_m).norm() < limits.max_head_error_m;
+    };
+    const bool is_likely =
+        asked.limits_of_likely && heads[k].odds >= params.overlooked.min_likely_head_odds;
+    heads[k].told_by_body = meets(asked.limits) || (is_likely && meets(*asked.limits_of_likely));
   });
   heads.erase(std::remove_if(heads.begin(), heads.end(),
                              [](const HeadCandidate& head) { return !head.told_by_body; }),

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "modules/segmenter/faces_and_joints/depth_pose.hpp"
@@ -23,14 +24,21 @@ std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPe
 std::vector<HeadCandidate> find_merged(const Lattice& lattice, const FoundPeople& people,
                                        const OverlookedParams& params);
 
-/// Heads that the network of depths is asked about, and what it must tell of each.
+/// What the network of depths must tell of the body under a head.
+struct BodyLimits {
+  float min_person_odds = 0.0F;  ///< log odds
+  float max_head_error_m =
+      std::numeric_limits<float>::infinity();  ///< from where it marks the head
+};
+
+/// Heads that it is asked about.
 struct AskedHeads {
   std::vector<HeadCandidate> heads;
   const std::vector<std::int16_t>& labels;  ///< whose each of the cloud's points is
   std::int16_t first_label = 0;             ///< that of the first head; the others' follow
-  float min_person_odds = 0.0F;             ///< log odds
-  float max_head_error_m =
-      std::numeric_limits<float>::infinity();  ///< from where it marks the head
+  BodyLimits limits;
+  /// Other limits that suffice where the depths around a head nearly tell it.
+  std::optional<BodyLimits> limits_of_likely;
 };
 
 /// Those whose whole bodies it takes for people.

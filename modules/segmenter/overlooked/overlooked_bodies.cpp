@@ -8,7 +8,7 @@
 
 #include "modules/segmenter/faces_and_joints/depth_picture.hpp"
 #include "modules/segmenter/faces_and_joints/labelled_person.hpp"
-#include "modules/segmenter/overlooked/hidden_heads.hpp"
+#include "modules/segmenter/overlooked/head_view.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -32,10 +32,10 @@ std::vector<HeadlessSurface> likeliest_bodies(const Scene& scene, const Surfaces
   return bodies;
 }
 
-/// Where the network sees the head of a person in sight; nothing where it sees none. `body`'s own
-/// head is a guess.
-std::optional<HeadCandidate> head_in_depths(const Scene& scene, LabelledPerson body,
-                                            const BodyJudges& judges) {
+/// Where the network sees the head of a person (level frame); nothing where it sees none. `body`'s
+/// own head is a guess.
+std::optional<Eigen::Vector3f> see_head(const Scene& scene, LabelledPerson body,
+                                        const BodyJudges& judges) {
   const OverlookedParams& params = judges.params.overlooked;
   const auto see = [&](float min_odds) -> std::optional<PoseInDepths> {
     const auto picture = draw_depths(scene, body, judges.params.depth_pose.picture);
@@ -47,22 +47,15 @@ std::optional<HeadCandidate> head_in_depths(const Scene& scene, LabelledPerson b
   body.head_m = first->places_m[index(Joint::kHead)];
   const auto pose = see(params.min_person_odds);
   if (!pose) return std::nullopt;
-  auto head =
-      head_near(scene.lattice, scene.lattice.frame.to_level(pose->places_m[index(Joint::kHead)]));
-  if (!head) return std::nullopt;
-  head->kind = SeedKind::kBody;
-  head->odds = params.head_odds;
-  head->told_by_body = true;
-  return head;
+  return scene.lattice.frame.to_level(pose->places_m[index(Joint::kHead)]);
 }
 
 }  // namespace
 
-std::vector<HeadCandidate> find_overlooked_bodies(const Scene& scene, const Surfaces& surfaces,
-                                                  const FoundPeople& people,
-                                                  const BodyJudges& judges) {
+OverlookedBodies find_overlooked_bodies(const Scene& scene, const Surfaces& surfaces,
+                                        const FoundPeople& people, const BodyJudges& judges) {
   if (!judges.params.depth_pose.enabled) return {};
-  const std::vector<HeadlessSurface> bodies = likeliest_bodies(scene, surfaces, people, judges);
+  std::vector<HeadlessSurface> bodies = likeliest_bodies(scene, surfaces, people, judges);
   if (bodies.empty()) return {};
   const auto label_of = [&](std::size_t k) {
     return static_cast<std::int16_t>(people.heads.size() + k);
@@ -72,14 +65,26 @@ std::vector<HeadCandidate> find_overlooked_bodies(const Scene& scene, const Surf
     for (const std::uint32_t i : bodies[k].points) labels[i] = label_of(k);
   }
   labels = labels_of_cloud(scene, labels, judges.params.joint);
-  std::vector<std::optional<HeadCandidate>> heads(bodies.size());
+  std::vector<std::optional<Eigen::Vector3f>> heads_m(bodies.size());
   tbb::parallel_for(std::size_t{0}, bodies.size(), [&](std::size_t k) {
     const Eigen::Vector3f guess_m = scene.lattice.frame.to_sensor(bodies[k].head.center_m);
-    heads[k] = head_in_depths(scene, {labels, label_of(k), guess_m}, judges);
+    heads_m[k] = see_head(scene, {labels, label_of(k), guess_m}, judges);
   });
-  std::vector<HeadCandidate> seen;
-  for (const auto& head : heads) {
-    if (head) seen.push_back(*head);
+  OverlookedBodies seen;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (!heads_m[k]) continue;
+    if (auto head = head_near(scene.lattice, *heads_m[k])) {
+      head->kind = SeedKind::kBody;
+      head->odds = judges.params.overlooked.head_odds;
+      head->told_by_body = true;
+      seen.heads.push_back(*head);
+    } else if (scene.cloud.organized() &&
+               HeadView(scene.lattice, people, judges.params.hidden_heads)
+                   .hides_head(*heads_m[k])) {
+      bodies[k].head.center_m = *heads_m[k];
+      bodies[k].head.surface_m = head_surface(scene.lattice, *heads_m[k]);
+      seen.headless.push_back(std::move(bodies[k]));
+    }
   }
   return seen;
 }

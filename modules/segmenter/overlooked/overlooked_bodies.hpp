@@ -4,6 +4,7 @@
 
 #include "modules/segmenter/classifiers/surface_classifier.hpp"
 #include "modules/segmenter/faces_and_joints/depth_pose.hpp"
+#include "modules/segmenter/overlooked/hidden_heads.hpp"
 #include "modules/segmenter/params.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/scene/scene.hpp"
@@ -19,10 +20,14 @@ struct BodyJudges {
   const DepthPose& network;             ///< tells of each
 };
 
-/// Heads in sight of bodies that nobody has and that the network of depths takes for people.
-/// `surfaces`: those that nobody has.
-std::vector<HeadCandidate> find_overlooked_bodies(const Scene& scene, const Surfaces& surfaces,
-                                                  const FoundPeople& people,
-                                                  const BodyJudges& judges);
+struct OverlookedBodies {
+  std::vector<HeadCandidate> heads;       ///< in sight
+  std::vector<HeadlessSurface> headless;  ///< of people whose heads are out of a camera's sight
+};
+
+/// Bodies that nobody has and that the network of depths takes for people. `surfaces`: those that
+/// nobody has.
+OverlookedBodies find_overlooked_bodies(const Scene& scene, const Surfaces& surfaces,
+                                        const FoundPeople& people, const BodyJudges& judges);
 
 }  // namespace limbcast::segmenter

@@ -158,10 +158,37 @@ TEST_P(HeadsThatLookLikeNone, AreToldByTheWholeBodyInDepths) {
   EXPECT_EQ(count_people(scene, GetParam(), nobody_asked), 0U);
 }
 
+TEST_P(HeadsThatLookLikeNone, NeedLessOfABodyWhereTheDepthsAroundThemNearlyTellThem) {
+  const auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  Params nearly = strict();
+  nearly.overlooked.min_person_odds = 100.0F;
+  nearly.overlooked.min_likely_head_odds = -100.0F;
+  EXPECT_EQ(count_people(scene, GetParam(), nearly), 1U);
+  Params not_at_the_mark = nearly;
+  not_at_the_mark.overlooked.max_likely_error_m = 0.0F;
+  EXPECT_EQ(count_people(scene, GetParam(), not_at_the_mark), 0U);
+  Params unlikely = nearly;
+  unlikely.overlooked.min_likely_head_odds = 100.0F;
+  EXPECT_EQ(count_people(scene, GetParam(), unlikely), 0U);
+}
+
 TEST_P(HeadsThatLookLikeNone, AreToldByASurfaceThatNobodyHas) {
   const auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
   Params no_heads_asked = strict();
   no_heads_asked.overlooked.max_asked = 0;
+  no_heads_asked.overlooked_bodies = kOverlookedBodies;
+  EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 1U);
+}
+
+TEST_P(HeadsThatLookLikeNone, AreToldByTheBodyWhereTheyAreAboveTheImage) {
+  auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  scene.scenario.head_above_share = 1.0;
+  scene.scenario.min_distance_m = 0.9;
+  scene.scenario.max_distance_m = 2.0;
+  scene.scenario.min_camera_height_m = scene.scenario.max_camera_height_m = 0.8;
+  Params no_heads_asked = strict();
+  no_heads_asked.overlooked.max_asked = 0;
+  EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 0U);
   no_heads_asked.overlooked_bodies = kOverlookedBodies;
   EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 1U);
 }

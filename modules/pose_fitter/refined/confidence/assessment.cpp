@@ -54,6 +54,11 @@ bool shows_face(const FittedBody& fitted) {
   return fitted.observation.face.facing_log_odds > kPlainFaceLogOdds;
 }
 
+bool has_head_in_image(const FittedBody& fitted) {
+  const auto [u, v] = fitted.observation.pixel_of(fitted.body.points[kHead]);
+  return fitted.observation.in_sensor_image(u, v);
+}
+
 /// Of somebody who is alone.
 Real least_confidence(const FittedBody& fitted) {
   if (is_noisy(fitted)) return kLeastNoisyPersonConfidence;
@@ -119,7 +124,8 @@ std::optional<PersonCandidate> assess(const FittedBody& fitted) {
   if (pose.confidence < least_accompanied_confidence(fitted)) return std::nullopt;
   candidate.needs_company = pose.confidence < least_confidence(fitted) && !shows_face(fitted);
   // What is seen between somebody's legs or beside an arm looks like people without a head behind.
-  if (candidate.needs_company && !pose[Joint::kHead].valid) return std::nullopt;
+  if (!pose[Joint::kHead].valid && (candidate.needs_company || has_head_in_image(fitted)))
+    return std::nullopt;
   return candidate;
 }
 
