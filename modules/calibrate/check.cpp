@@ -5,6 +5,7 @@
 #include "common/formatted.hpp"
 #include "common/median.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
+#include "modules/reconstructor/rectification.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 #include "modules/reconstructor/row_differences.hpp"
 

@@ -15,7 +15,7 @@
 #include "common/median.hpp"
 #include "common/units.hpp"
 #include "modules/calibrate/view_agreement.hpp"
-#include "modules/reconstructor/rectifier.hpp"
+#include "modules/reconstructor/rectification.hpp"
 
 namespace limbcast::calibrate {
 namespace {

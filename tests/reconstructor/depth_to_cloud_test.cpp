@@ -63,5 +63,26 @@ TEST(DepthToCloud, KeepsHolesAndWhatStandsBesideThem) {
   EXPECT_EQ(holes(cloud), kHeight * 80);
 }
 
+TEST(DepthToCloud, PutsWhatAFisheyeSeesWhereItIs) {
+  DepthCalibration calibration;
+  calibration.color = {
+      {kWidth, kHeight, 60.0, 60.0, 80.0, 60.0}, {0.0, 0.0, 0.0, 0.0}, LensModel::kFisheye};
+  // A post, seen 0.75 rad to the right of the middle.
+  cv::Mat1w depth_mm(kHeight, kWidth, std::uint16_t{0});
+  depth_mm.colRange(123, 128) = 1000;
+  const Cloud cloud = depth_to_cloud(depth_mm, {}, calibration);
+  double sum_x_m = 0.0;
+  int count = 0;
+  for (int u = 0; u < kWidth; ++u) {
+    const std::size_t i = 60UL * kWidth + static_cast<std::size_t>(u);
+    if (cloud.is_hole(i)) continue;
+    sum_x_m += cloud.points_m[i].x();
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  // To a pixel of 1 m / 60 and the half one that whole pixels of a map are off.
+  EXPECT_NEAR(sum_x_m / count, std::tan(0.75), 1.5 / 60.0);
+}
+
 }  // namespace
 }  // namespace limbcast::reconstructor
