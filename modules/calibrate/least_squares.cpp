@@ -1,118 +1,115 @@
 #include "modules/calibrate/least_squares.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/LevenbergMarquardt>
 
 namespace limbcast::calibrate {
 namespace {
 
+constexpr Eigen::Index kPoseSize = PoseVector::SizeAtCompileTime;
 /// Of the size of an unknown, of 1 at least: differences either way are then exact to its square,
 /// and rounding far smaller than that.
 constexpr double kDifference = 1e-5;
-/// By so much a step is damped the more or the less after one that was bad or good, from the first
-/// to what hardly moves (Marquardt 1963).
-constexpr double kDampingFactor = 10.0, kFirstDamping = 1e-3, kLargestDamping = 1e12;
 
-/// Changes of a view's residuals with each unknown of `x`.
-template <class Vector, class Function>
-Eigen::MatrixXd jacobian(const Function& residuals, const Vector& x, Eigen::Index num_residuals) {
-  Eigen::MatrixXd J(num_residuals, x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double step = kDifference * std::max(1.0, std::abs(x[i]));
-    Vector more = x;
-    more[i] += step;
-    Vector less = x;
-    less[i] -= step;
-    J.col(i) = (residuals(more) - residuals(less)) / (2.0 * step);
-  }
-  return J;
-}
-
-/// Normal equations of one view: shared unknowns (s) and pose (p).
-struct ViewEquations {
-  Eigen::MatrixXd ss, sp;
-  Eigen::Matrix<double, 6, 6> pp;
-  Eigen::VectorXd s;
-  PoseVector p;
-};
-
-std::vector<ViewEquations> equations_at(const Residuals& residuals, const Unknowns& x) {
-  std::vector<ViewEquations> equations;
-  for (std::size_t view = 0; view < x.poses.size(); ++view) {
-    const PoseVector& pose = x.poses[view];
-    const Eigen::VectorXd errors = residuals(x.shared, pose, view);
-    const Eigen::MatrixXd S =
-        jacobian([&](const Eigen::VectorXd& shared) { return residuals(shared, pose, view); },
-                 x.shared, errors.size());
-    const Eigen::MatrixXd P =
-        jacobian([&](const PoseVector& moved) { return residuals(x.shared, moved, view); }, pose,
-                 errors.size());
-    equations.push_back({S.transpose() * S, S.transpose() * P, P.transpose() * P,
-                         -S.transpose() * errors, -P.transpose() * errors});
-  }
-  return equations;
-}
-
-/// Those of the shared unknowns alone: what is left of all views where the poses follow.
-struct ReducedEquations {
-  Eigen::MatrixXd H;
-  Eigen::VectorXd g;
-};
-
-template <class Matrix>
-Matrix damped(Matrix H, double damping) {
-  H.diagonal() *= 1.0 + damping;
-  return H;
-}
-
-ReducedEquations reduced(const std::vector<ViewEquations>& equations, double damping) {
-  const Eigen::Index size = equations.front().s.size();
-  ReducedEquations result{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-  for (const ViewEquations& view : equations) {
-    const auto pp = damped(view.pp, damping).ldlt();
-    result.H += damped(view.ss, damping) - view.sp * pp.solve(view.sp.transpose());
-    result.g += view.s - view.sp * pp.solve(view.p);
-  }
-  return result;
-}
-
-Unknowns stepped(const Unknowns& x, const std::vector<ViewEquations>& equations, double damping) {
-  const ReducedEquations shared = reduced(equations, damping);
-  const Eigen::VectorXd step = shared.H.ldlt().solve(shared.g);
-  Unknowns result{x.shared + step, x.poses};
-  for (std::size_t view = 0; view < x.poses.size(); ++view) {
-    const ViewEquations& of_view = equations[view];
-    result.poses[view] +=
-        damped(of_view.pp, damping).ldlt().solve(of_view.p - of_view.sp.transpose() * step);
-  }
-  return result;
-}
-
-/// Sum of the squared residuals and their number.
-struct Cost {
-  double sum = 0.0;
+Eigen::Index num_residuals(const Residuals& residuals, const Unknowns& x) {
   Eigen::Index count = 0;
-};
-
-Cost cost_of(const Residuals& residuals, const Unknowns& x) {
-  Cost cost;
-  for (std::size_t view = 0; view < x.poses.size(); ++view) {
-    const Eigen::VectorXd errors = residuals(x.shared, x.poses[view], view);
-    cost.sum += errors.squaredNorm();
-    cost.count += errors.size();
-  }
-  return cost;
+  for (std::size_t view = 0; view < x.poses.size(); ++view)
+    count += residuals(x.shared, x.poses[view], view).size();
+  return count;
 }
 
-Eigen::VectorXd deviations_at(const Unknowns& x, const std::vector<ViewEquations>& equations,
-                              const Cost& cost) {
-  const Eigen::Index size = x.shared.size();
-  const auto num_unknowns =
-      size + PoseVector::SizeAtCompileTime * static_cast<Eigen::Index>(x.poses.size());
-  const double variance = cost.sum / static_cast<double>(cost.count - num_unknowns);
-  const Eigen::MatrixXd inverse =
-      reduced(equations, 0.0).H.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+/// What Eigen's solver asks for. All unknowns are one vector there.
+class Problem : public Eigen::SparseFunctor<double, int> {
+ public:
+  /// The poses come first, and stay there: with the shared unknowns, on which all residuals depend,
+  /// at the end, the factors are about as sparse as the Jacobian.
+  using QRSolver = Eigen::SparseQR<JacobianType, Eigen::NaturalOrdering<int>>;
+
+  Problem(const Residuals& residuals, const Unknowns& start)
+      : SparseFunctor(static_cast<int>(pose_begin(start.poses.size()) + start.shared.size()),
+                      static_cast<int>(num_residuals(residuals, start))),
+        residuals_(residuals),
+        num_views_(start.poses.size()),
+        num_shared_(start.shared.size()) {}
+
+  InputType joined(const Unknowns& unknowns) const {
+    InputType x(inputs());
+    for (std::size_t view = 0; view < num_views_; ++view)
+      x.segment<kPoseSize>(pose_begin(view)) = unknowns.poses[view];
+    x.tail(num_shared_) = unknowns.shared;
+    return x;
+  }
+
+  Unknowns parted(const InputType& x) const {
+    Unknowns unknowns{x.tail(num_shared_), {}};
+    for (std::size_t view = 0; view < num_views_; ++view)
+      unknowns.poses.emplace_back(x.segment<kPoseSize>(pose_begin(view)));
+    return unknowns;
+  }
+
+  /// All residuals.
+  int operator()(const InputType& x, ValueType& errors) const {
+    Eigen::Index row = 0;
+    for (std::size_t view = 0; view < num_views_; ++view) {
+      const Eigen::VectorXd of_view = residuals_of(view, x);
+      errors.segment(row, of_view.size()) = of_view;
+      row += of_view.size();
+    }
+    return 0;
+  }
+
+  /// Their changes with each unknown.
+  int df(const InputType& x, JacobianType& J) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::Index row = 0;
+    for (std::size_t view = 0; view < num_views_; ++view) {
+      Eigen::Index num_rows = 0;
+      const auto add_column = [&](Eigen::Index unknown) {
+        const Eigen::VectorXd changes = changes_of(view, x, unknown);
+        num_rows = changes.size();
+        for (Eigen::Index i = 0; i < num_rows; ++i)
+          entries.emplace_back(row + i, unknown, changes[i]);
+      };
+      for (Eigen::Index i = 0; i < kPoseSize; ++i) add_column(pose_begin(view) + i);
+      for (Eigen::Index i = 0; i < num_shared_; ++i) add_column(pose_begin(num_views_) + i);
+      row += num_rows;
+    }
+    J.setFromTriplets(entries.begin(), entries.end());
+    return 0;
+  }
+
+ private:
+  static Eigen::Index pose_begin(std::size_t view) {
+    return kPoseSize * static_cast<Eigen::Index>(view);
+  }
+
+  Eigen::VectorXd residuals_of(std::size_t view, const InputType& x) const {
+    return residuals_(x.tail(num_shared_), x.segment<kPoseSize>(pose_begin(view)), view);
+  }
+
+  Eigen::VectorXd changes_of(std::size_t view, const InputType& x, Eigen::Index unknown) const {
+    const double step = kDifference * std::max(1.0, std::abs(x[unknown]));
+    InputType more = x;
+    more[unknown] += step;
+    InputType less = x;
+    less[unknown] -= step;
+    return (residuals_of(view, more) - residuals_of(view, less)) / (2.0 * step);
+  }
+
+  const Residuals& residuals_;
+  std::size_t num_views_;
+  Eigen::Index num_shared_;
+};
+
+/// Of the last ones of the unknowns. `errors`: root of the sum of the squared residuals.
+Eigen::VectorXd deviations(const Problem::JacobianType& J, double errors, Eigen::Index num_shared) {
+  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(J.cols(), num_shared);
+  last.bottomRows(num_shared).setIdentity();
+  const Eigen::SimplicialLDLT<Problem::JacobianType> normal_equations(J.transpose() * J);
+  const Eigen::MatrixXd inverse = normal_equations.solve(last).bottomRows(num_shared);
+  const double variance = errors * errors / static_cast<double>(J.rows() - J.cols());
   return (variance * inverse.diagonal()).cwiseSqrt();
 }
 
@@ -120,25 +117,13 @@ Eigen::VectorXd deviations_at(const Unknowns& x, const std::vector<ViewEquations
 
 LeastSquares least_squares(const Residuals& residuals, const Unknowns& start, int max_iterations,
                            double min_change) {
-  Unknowns x = start;
-  Cost cost = cost_of(residuals, x);
-  std::vector<ViewEquations> equations = equations_at(residuals, x);
-  double damping = kFirstDamping;
-  for (int i = 0; i < max_iterations && damping < kLargestDamping; ++i) {
-    const Unknowns next = stepped(x, equations, damping);
-    const Cost next_cost = cost_of(residuals, next);
-    if (!(next_cost.sum < cost.sum)) {  // also where it is no number
-      damping *= kDampingFactor;
-      continue;
-    }
-    const bool is_done = std::sqrt(next_cost.sum) > (1.0 - min_change) * std::sqrt(cost.sum);
-    x = next;
-    cost = next_cost;
-    equations = equations_at(residuals, x);
-    damping /= kDampingFactor;
-    if (is_done) break;
-  }
-  return {x, deviations_at(x, equations, cost)};
+  Problem problem(residuals, start);
+  Eigen::LevenbergMarquardt<Problem> solver(problem);
+  solver.setMaxfev(max_iterations);
+  solver.setFtol(2.0 * min_change);  // of the squares
+  Eigen::VectorXd x = problem.joined(start);
+  solver.minimize(x);
+  return {problem.parted(x), deviations(solver.jacobian(), solver.fnorm(), start.shared.size())};
 }
 
 }  // namespace limbcast::calibrate

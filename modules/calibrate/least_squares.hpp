@@ -26,9 +26,10 @@ struct LeastSquares {
   Eigen::VectorXd deviations;
 };
 
-/// The unknowns with the least sum of squared residuals near `start` (Levenberg-Marquardt; the
-/// poses are eliminated, as in Triggs et al., Bundle Adjustment, 2000, section 6.1). Ends after
-/// `max_iterations`, or where the sum's root falls by less than `min_change` of itself.
+/// The unknowns with the least sum of squared residuals near `start`, by Eigen's
+/// Levenberg-Marquardt: sparse, as each view's residuals depend on one pose only. Ends after
+/// `max_iterations` (steps tried), or where the sum's root falls by less than `min_change` of
+/// itself.
 LeastSquares least_squares(const Residuals& residuals, const Unknowns& start, int max_iterations,
                            double min_change);
 
