@@ -29,9 +29,12 @@ UndistortedImages undistort(const cv::Mat& depth, const cv::Mat& color,
   if (!has_distortion(lens)) return {depth, color};
   const LensMaps maps =
       undistorting_maps(lens, cv::noArray(), camera_matrix(lens.camera), depth.size());
+  // Depths of two surfaces must not be mixed: the nearest pixel's is taken. The maps' whole pixels
+  // alone are rounded down, half a pixel off on average.
+  cv::Mat places;
+  cv::convertMaps(maps.xy, maps.fraction, places, cv::noArray(), CV_32FC2);
   UndistortedImages result;
-  // Depths of two surfaces must not be mixed.
-  cv::remap(depth, result.depth, maps.xy, cv::noArray(), cv::INTER_NEAREST);
+  cv::remap(depth, result.depth, places, cv::noArray(), cv::INTER_NEAREST);
   if (!color.empty()) cv::remap(color, result.color, maps.xy, maps.fraction, cv::INTER_LINEAR);
   return result;
 }

@@ -38,7 +38,8 @@ TEST(DepthToCloud, RemovesTheSkirtThatASmoothingSensorDrawsFromABodyToTheWall) {
   };
   const Cloud cloud = cloud_of(depth_at);
   const auto is_hole = [&cloud](int u) {
-    return cloud.is_hole(static_cast<std::size_t>(kHeight / 2 * kWidth + u));
+    return cloud.is_hole(static_cast<std::size_t>(kHeight / 2) * kWidth +
+                         static_cast<std::size_t>(u));
   };
   EXPECT_FALSE(is_hole(kSkirtBegin)) << "the body's edge";
   EXPECT_TRUE(is_hole((kSkirtBegin + kSkirtEnd) / 2));
@@ -63,6 +64,27 @@ TEST(DepthToCloud, KeepsHolesAndWhatStandsBesideThem) {
   EXPECT_EQ(holes(cloud), kHeight * 80);
 }
 
+TEST(DepthToCloud, TakesTheNearestPixelOfADistortedImage) {
+  const double k1 = -0.2;
+  DepthCalibration calibration;
+  calibration.color = {{kWidth, kHeight, kFocalPx, kFocalPx, kWidth / 2.0, kHeight / 2.0},
+                       {k1, 0.0, 0.0, 0.0}};
+  // Each depth tells its column.
+  cv::Mat1w depth_mm(kHeight, kWidth);
+  for (int u = 0; u < kWidth; ++u) depth_mm.col(u) = 1000 + u;
+  const Cloud cloud = depth_to_cloud(depth_mm, {}, calibration);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const double x = (u - kWidth / 2.0) / kFocalPx;
+      const double y = (v - kHeight / 2.0) / kFocalPx;
+      const double seen_at = kWidth / 2.0 + kFocalPx * x * (1.0 + k1 * (x * x + y * y));
+      const std::size_t i = static_cast<std::size_t>(v) * kWidth + static_cast<std::size_t>(u);
+      // OpenCV's maps tell 1/32 px.
+      EXPECT_NEAR(1000.0 * cloud.points_m[i].z() - 1000.0, seen_at, 0.5 + 1.0 / 32.0);
+    }
+  }
+}
+
 TEST(DepthToCloud, PutsWhatAFisheyeSeesWhereItIs) {
   DepthCalibration calibration;
   calibration.color = {
@@ -80,8 +102,7 @@ TEST(DepthToCloud, PutsWhatAFisheyeSeesWhereItIs) {
     ++count;
   }
   ASSERT_GT(count, 0);
-  // To a pixel of 1 m / 60 and the half one that whole pixels of a map are off.
-  EXPECT_NEAR(sum_x_m / count, std::tan(0.75), 1.5 / 60.0);
+  EXPECT_NEAR(sum_x_m / count, std::tan(0.75), 0.5 / 60.0);  // half a pixel
 }
 
 }  // namespace
