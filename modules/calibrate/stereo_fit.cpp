@@ -21,16 +21,17 @@
 namespace limbcast::calibrate {
 namespace {
 
-double epipolar_rms_px(const CommonPoints& common, const StereoCalibration& calibration) {
+void set_epipolar_error(const CommonPoints& common, const StereoCalibration& calibration,
+                        ViewFit& figures) {
   const RectifiedPoints rectified = rectified_points(common, calibration);
+  figures.num_rectified = static_cast<int>(rectified.left.size());
+  if (figures.num_rectified == 0) return;
   double squares = 0.0;
   for (std::size_t i = 0; i < rectified.left.size(); ++i) {
     const double difference_px = rectified.left[i].y - rectified.right[i].y;
     squares += difference_px * difference_px;
   }
-  // A fisheye may have seen all of the board where the rectified images do not reach.
-  return rectified.left.empty() ? 0.0
-                                : std::sqrt(squares / static_cast<double>(rectified.left.size()));
+  figures.epipolar_px = std::sqrt(squares / figures.num_rectified);
 }
 
 void set_pose(const CommonPoints& common, const Board& board, const LensCalibration& lens,
@@ -52,20 +53,37 @@ void set_pose(const CommonPoints& common, const Board& board, const LensCalibrat
   figures.tilt_updown_deg = kDegreesPerRadian<double> * std::atan2(sign * R(1, 2), sign * R(2, 2));
 }
 
-double rms_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
+/// An error of the views, and how many points show it in each.
+struct ErrorKind {
+  const char* name;
+  double (*px)(const ViewFit&);
+  int (*num_points)(const ViewFit&);
+};
+constexpr ErrorKind kReprojection = {
+    "reprojection",
+    [](const ViewFit& view) {
+      return std::hypot(view.reprojection_left_px, view.reprojection_right_px) / std::sqrt(2.0);
+    },
+    [](const ViewFit& view) { return view.num_points; }};
+constexpr ErrorKind kWorseReprojection = {"reprojection",
+                                          [](const ViewFit& view) {
+                                            return std::max(view.reprojection_left_px,
+                                                            view.reprojection_right_px);
+                                          },
+                                          [](const ViewFit& view) { return view.num_points; }};
+constexpr ErrorKind kEpipolar = {"epipolar", [](const ViewFit& view) { return view.epipolar_px; },
+                                 [](const ViewFit& view) { return view.num_rectified; }};
+
+/// Of all points.
+double rms_of(const std::vector<ViewFit>& figures, const ErrorKind& kind) {
   double squares = 0.0;
   double count = 0.0;
   for (const ViewFit& view : figures) {
-    squares += view.num_points * error_px(view) * error_px(view);
-    count += view.num_points;
+    squares += kind.num_points(view) * kind.px(view) * kind.px(view);
+    count += kind.num_points(view);
   }
-  return std::sqrt(squares / count);
+  return std::sqrt(squares / std::max(1.0, count));
 }
-
-double reprojection_px(const ViewFit& view) {
-  return std::hypot(view.reprojection_left_px, view.reprojection_right_px) / std::sqrt(2.0);
-}
-double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
 
 /// Pinholes and pose of a pair, all at once, from the lenses that each camera alone has found.
 PairFit refine_pinholes(const Lenses& lenses, const SeenPoints& left, const SeenPoints& right,
@@ -129,37 +147,31 @@ StereoFit fit_pair(const std::vector<View>& views, const Board& board, const Fit
     figures.num_points = static_cast<int>(common[i].ids.size());
     figures.reprojection_left_px = pair.errors_px[i][0];
     figures.reprojection_right_px = pair.errors_px[i][1];
-    figures.epipolar_px = epipolar_rms_px(common[i], fit.calibration);
+    set_epipolar_error(common[i], fit.calibration, figures);
     set_pose(common[i], board, fit.calibration.left, params, figures);
     fit.figures.push_back(figures);
   }
-  fit.reprojection_px = rms_of(fit.figures, reprojection_px);
-  fit.epipolar_px = rms_of(fit.figures, epipolar_px);
+  fit.reprojection_px = rms_of(fit.figures, kReprojection);
+  fit.epipolar_px = rms_of(fit.figures, kEpipolar);
   return fit;
 }
 
-double median_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
+/// Of the views that show it.
+double median_of(const std::vector<ViewFit>& figures, const ErrorKind& kind) {
   std::vector<double> errors_px;
-  for (const ViewFit& view : figures) errors_px.push_back(error_px(view));
-  return median(std::move(errors_px));
-}
-
-double worst_reprojection_px(const ViewFit& view) {
-  return std::max(view.reprojection_left_px, view.reprojection_right_px);
+  for (const ViewFit& view : figures) {
+    if (kind.num_points(view) > 0) errors_px.push_back(kind.px(view));
+  }
+  return errors_px.empty() ? 0.0 : median(std::move(errors_px));
 }
 
 Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params) {
-  struct Kind {
-    const char* name;
-    double (*error_px)(const ViewFit&);
-  };
   Outlier worst;
-  for (const Kind& kind :
-       {Kind{"reprojection", worst_reprojection_px}, Kind{"epipolar", epipolar_px}}) {
+  for (const ErrorKind& kind : {kWorseReprojection, kEpipolar}) {
     const double limit_px =
-        std::max(params.outlier_px, params.outlier_factor * median_of(figures, kind.error_px));
+        std::max(params.outlier_px, params.outlier_factor * median_of(figures, kind));
     for (std::size_t i = 0; i < figures.size(); ++i) {
-      const double error_px = kind.error_px(figures[i]);
+      const double error_px = kind.px(figures[i]);
       if (error_px / limit_px <= worst.excess) continue;
       worst = {
           i, error_px / limit_px,

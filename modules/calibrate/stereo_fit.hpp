@@ -15,7 +15,9 @@ struct ViewFit {
   std::string name;
   int num_points = 0;                                              ///< that both images show
   double reprojection_left_px = 0.0, reprojection_right_px = 0.0;  ///< RMS
-  double epipolar_px = 0.0;  ///< RMS difference of the rows after rectification
+  /// Of them, those that both rectified images show: less of a fisheye's.
+  int num_rectified = 0;
+  double epipolar_px = 0.0;  ///< RMS difference of their rows
   double distance_m = 0.0;   ///< of the board's middle from the left camera
   /// Angle between the board and the image, about the image's y axis (to the left or right) and x
   /// axis (up or down).
