@@ -21,11 +21,25 @@ inline double deviation_from_rotation(const Eigen::Matrix3d& R) {
   return (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-/// One real lens: pinhole and OpenCV's distortion coefficients (k1 k2 p1 p2 k3 ..., 0, 4, 5, 8, 12
-/// or 14 of them; none = no distortion).
+/// How the angle between a ray and the optical axis becomes a distance from the principal point.
+enum class LensModel {
+  /// By the angle's tangent, and OpenCV's distortion (ROS: plumb_bob, rational_polynomial).
+  kPinhole,
+  /// By the angle itself, and a polynomial of it: Kannala and Brandt, A Generic Camera Model, PAMI
+  /// 2006 (OpenCV: cv::fisheye; ROS: equidistant).
+  kFisheye
+};
+/// A fisheye's model in calibration files, as ROS names it.
+inline constexpr const char* kFisheyeName = "equidistant";
+/// k1 k2 k3 k4, as cv::fisheye takes them.
+inline constexpr int kFisheyeCoefficients = 4;
+
+/// One real lens: focal lengths and principal point, and distortion coefficients: of a pinhole k1
+/// k2 p1 p2 k3 ..., 0, 4, 5, 8, 12 or 14 of them (none = no distortion); of a fisheye k1 k2 k3 k4.
 struct LensCalibration {
   PinholeCamera camera;
   std::vector<double> distortion;
+  LensModel model = LensModel::kPinhole;
 };
 
 /// How the sensor stands on the robot; what is not known is not set.

@@ -45,10 +45,16 @@ void check_square(const YamlReader& yaml, const std::string& key, double fx, dou
             "a camera has about the same for both; calibrate again");
 }
 
-/// Where a ray comes out by the radial part of OpenCV's model, that leaves at this tangent to the
+/// Where a ray comes out by the radial part of OpenCV's models, that leaves at this tangent to the
 /// axis [focal lengths].
-double distorted(const std::vector<double>& D, double tangent) {
+double distorted(const LensCalibration& lens, double tangent) {
+  const std::vector<double>& D = lens.distortion;
   const auto k = [&D](std::size_t index) { return index < D.size() ? D[index] : 0.0; };
+  if (lens.model == LensModel::kFisheye) {
+    const double angle = std::atan(tangent);
+    const double a2 = angle * angle;
+    return angle * (1.0 + a2 * (k(0) + a2 * (k(1) + a2 * (k(2) + a2 * k(3)))));
+  }
   const double r2 = tangent * tangent;
   return tangent * (1.0 + r2 * (k(0) + r2 * (k(1) + r2 * k(4)))) /
          (1.0 + r2 * (k(5) + r2 * (k(6) + r2 * k(7))));
@@ -91,11 +97,14 @@ std::optional<DistortionFault> distortion_fault(const LensCalibration& lens) {
   const double end = reach(lens.camera);
   double last = 0.0;
   for (double tangent = kTangentStep; last < end; tangent += kTangentStep) {
-    const double place = distorted(lens.distortion, tangent);
+    const bool leaves_pinholes = tangent > kLargestTangent;
+    // A fisheye's image may well reach farther; no rectified image shows it.
+    if (leaves_pinholes && lens.model == LensModel::kFisheye) return std::nullopt;
+    const double place = distorted(lens, tangent);
     if (place > kLargestStretch * tangent)
       return DistortionFault{"stretches the image more than " + text_of(kLargestStretch) + " times",
                              "calibrate again"};
-    if (!(place > last) || tangent > kLargestTangent)
+    if (!(place > last) || leaves_pinholes)
       return DistortionFault{
           "folds the image: " + text_of(std::round(last * lens.camera.fx)) +
               " px from its middle it ends, and rays farther off the axis come back",

@@ -27,16 +27,37 @@ int read_size(const YamlReader& yaml, const std::string& key) {
   return static_cast<int>(size_px);
 }
 
-std::vector<double> read_distortion(const YamlReader& yaml, const std::string& key) {
+/// The name that ROS has for a model; what OpenCV's calibration program writes is understood too.
+/// A pinhole where the file does not say.
+LensModel read_model(const YamlReader& yaml, const std::string& prefix) {
+  const std::string key = prefix + "distortion_model";
+  if (!yaml.has(key)) {
+    const std::string flag = prefix + "fisheye_model";
+    return yaml.has(flag) && yaml.number(flag) != 0.0 ? LensModel::kFisheye : LensModel::kPinhole;
+  }
+  const std::string model = yaml.text(key);
+  if (model == "plumb_bob" || model == "rational_polynomial") return LensModel::kPinhole;
+  // Some versions of ROS' calibrator call it "fisheye".
+  if (model == kFisheyeName || model == "fisheye") return LensModel::kFisheye;
+  yaml.fail(key, "is '" + model + "'",
+            "calibrate with plumb_bob, rational_polynomial or " + std::string(kFisheyeName));
+}
+
+std::vector<double> read_distortion(const YamlReader& yaml, const std::string& key,
+                                    LensModel model) {
   std::vector<double> coefficients = yaml.numbers(key);
+  const std::string found = "has " + std::to_string(coefficients.size()) + " coefficients";
+  if (model == LensModel::kFisheye) {
+    if (coefficients.size() == kFisheyeCoefficients) return coefficients;
+    yaml.fail(key, found, "of a fisheye (equidistant) must be 4: k1 k2 k3 k4");
+  }
   for (const std::size_t count : {0U, 4U, 5U, 8U, 12U, 14U}) {
     if (coefficients.size() == count) return coefficients;
   }
-  yaml.fail(key, "has " + std::to_string(coefficients.size()) + " coefficients",
-            "must be 0, 4, 5, 8, 12 or 14 (fisheye models are not supported)");
+  yaml.fail(key, found, "must be 0, 4, 5, 8, 12 or 14");
 }
 
-/// `prefix`: of the keys of the image's size.
+/// `prefix`: of the keys of the image's size and the lens' model.
 LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
                           const std::string& distortion_key, const std::string& prefix = "") {
   const int width = read_size(yaml, prefix + "image_width");
@@ -44,8 +65,10 @@ LensCalibration read_lens(const YamlReader& yaml, const std::string& matrix_key,
   LensCalibration lens;
   lens.camera = checked_pinhole(yaml, matrix_key, width, height,
                                 Eigen::Matrix3d(yaml.matrix(matrix_key, 3, 3)));
-  if (yaml.has(distortion_key)) {
-    lens.distortion = read_distortion(yaml, distortion_key);
+  lens.model = read_model(yaml, prefix);
+  // Without its coefficients a fisheye is another lens.
+  if (yaml.has(distortion_key) || lens.model == LensModel::kFisheye) {
+    lens.distortion = read_distortion(yaml, distortion_key, lens.model);
     check_distortion(yaml, distortion_key, lens);
   }
   return lens;
@@ -112,13 +135,6 @@ StereoCalibration read_opencv_stereo(const YamlReader& yaml) {
 }
 
 LensCalibration read_ros_lens(const YamlReader& yaml) {
-  if (yaml.has("distortion_model")) {
-    const std::string model = yaml.text("distortion_model");
-    if (model != "plumb_bob" && model != "rational_polynomial") {
-      yaml.fail("distortion_model", "is '" + model + "'",
-                "calibrate with plumb_bob or rational_polynomial");
-    }
-  }
   return read_lens(yaml, "camera_matrix", "distortion_coefficients");
 }
 
@@ -140,6 +156,10 @@ StereoCalibration read_ros_pair(const YamlReader& left, const YamlReader& right)
       calibration.left.camera.height != calibration.right.camera.height) {
     right.fail("image_width", "and image_height differ from " + left.path(),
                "give two calibrations of the same image size");
+  }
+  if (calibration.left.model != calibration.right.model) {
+    right.fail("distortion_model", "differs from " + left.path() + ": one is a fisheye's",
+               "calibrate both cameras with the same model");
   }
   Rectification rectification;
   rectification.R1 = read_rotation(left, "rectification_matrix");

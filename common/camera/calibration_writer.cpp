@@ -29,6 +29,11 @@ void write_lens(cv::FileStorage& file, const std::string& matrix_key,
        << cv::Mat(lens.distortion.empty() ? none : lens.distortion, true).reshape(1, 1);
 }
 
+/// Nothing where it is what readers take it for.
+void write_model(cv::FileStorage& file, const std::string& key, const LensCalibration& lens) {
+  if (lens.model == LensModel::kFisheye) file << key << kFisheyeName;
+}
+
 void write_mounting(cv::FileStorage& file, const Mounting& mounting) {
   if (mounting.down) file << "down" << cv::Mat(to_cv(*mounting.down));
   if (mounting.sensor_height_m) file << "sensor_height_m" << *mounting.sensor_height_m;
@@ -54,6 +59,7 @@ void write_rectification(cv::FileStorage& file, const Rectification& rectificati
 void write_depth_camera(cv::FileStorage& file, const DepthCamera& depth_camera) {
   file << "depth_image_width" << depth_camera.lens.camera.width;
   file << "depth_image_height" << depth_camera.lens.camera.height;
+  write_model(file, "depth_distortion_model", depth_camera.lens);
   write_lens(file, "depth_camera_matrix", "depth_distortion_coefficients", depth_camera.lens);
   file << "R" << cv::Mat(to_cv(depth_camera.R)) << "T" << cv::Mat(to_cv(depth_camera.T));
 }
@@ -63,6 +69,7 @@ void write_depth_camera(cv::FileStorage& file, const DepthCamera& depth_camera) 
 void write_stereo_calibration(const std::string& path, const StereoCalibration& calibration) {
   cv::FileStorage file = yaml_text();
   write_size(file, calibration.left.camera);
+  write_model(file, "distortion_model", calibration.left);
   write_lens(file, "K1", "D1", calibration.left);
   write_lens(file, "K2", "D2", calibration.right);
   file << "R" << cv::Mat(to_cv(calibration.R)) << "T" << cv::Mat(to_cv(calibration.T));
@@ -74,6 +81,7 @@ void write_stereo_calibration(const std::string& path, const StereoCalibration& 
 void write_depth_calibration(const std::string& path, const DepthCalibration& calibration) {
   cv::FileStorage file = yaml_text();
   write_size(file, calibration.color.camera);
+  write_model(file, "distortion_model", calibration.color);
   write_lens(file, "camera_matrix", "distortion_coefficients", calibration.color);
   file << "depth_scale" << calibration.depth_scale_m;
   if (calibration.depth_camera) write_depth_camera(file, *calibration.depth_camera);

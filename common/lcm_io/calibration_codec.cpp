@@ -45,8 +45,9 @@ lens_t to_message(const LensCalibration& lens) {
   message.fy = lens.camera.fy;
   message.cx = lens.camera.cx;
   message.cy = lens.camera.cy;
-  message.num_distortion = static_cast<std::int32_t>(lens.distortion.size());
   message.distortion = lens.distortion;
+  if (lens.model == LensModel::kFisheye) message.distortion.resize(lens_t::NUM_FISHEYE, 0.0);
+  message.num_distortion = static_cast<std::int32_t>(message.distortion.size());
   return message;
 }
 
@@ -58,13 +59,20 @@ LensCalibration from_message(const lens_t& message) {
                              message.fy,    message.cx,     message.cy};
   require(is_plausible(camera),
           "calibration: focal length or principal point is none of a robot's camera");
+  const std::vector<double>& distortion = message.distortion;
+  require(
+      std::all_of(distortion.begin(), distortion.end(), [](double k) { return std::isfinite(k); }),
+      "calibration: a distortion coefficient is not finite");
+  if (distortion.size() == static_cast<std::size_t>(lens_t::NUM_FISHEYE)) {
+    const auto known_end = distortion.begin() + kFisheyeCoefficients;
+    require(std::all_of(known_end, distortion.end(), [](double k) { return k == 0.0; }),
+            "calibration: k5 and k6 of a fisheye lens must be 0");
+    return {camera, {distortion.begin(), known_end}, LensModel::kFisheye};
+  }
   require(std::find(kDistortionCounts.begin(), kDistortionCounts.end(), message.num_distortion) !=
               kDistortionCounts.end(),
           "calibration: number of distortion coefficients is none of OpenCV's");
-  require(std::all_of(message.distortion.begin(), message.distortion.end(),
-                      [](double k) { return std::isfinite(k); }),
-          "calibration: a distortion coefficient is not finite");
-  return {camera, message.distortion};
+  return {camera, distortion};
 }
 
 mounting_t to_message(const Mounting& mounting) {
@@ -112,6 +120,8 @@ StereoCalibration from_message(const stereo_calibration_t& message) {
   StereoCalibration calibration;
   calibration.left = from_message(message.left);
   calibration.right = from_message(message.right);
+  require(calibration.left.model == calibration.right.model,
+          "calibration: one lens is a fisheye, the other is not");
   calibration.R = read_rotation(message.R);
   calibration.T = read_rows<Eigen::Vector3d>(message.T);
   if (message.has_rectification != 0) {

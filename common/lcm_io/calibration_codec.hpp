@@ -18,7 +18,7 @@ Mounting from_message(const mounting_t& message);
 stereo_calibration_t to_message(const StereoCalibration& calibration, std::int64_t utime,
                                 const std::string& sensor);
 /// Throws MessageError where a number is not finite, an image or focal length not positive, or R no
-/// rotation.
+/// rotation, or only one of the lenses a fisheye.
 StereoCalibration from_message(const stereo_calibration_t& message);
 
 }  // namespace limbcast::lcm_io

@@ -5,6 +5,7 @@
 #include "common/formatted.hpp"
 #include "common/median.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
+#include "modules/reconstructor/rectification.hpp"
 #include "modules/reconstructor/rectifier.hpp"
 #include "modules/reconstructor/row_differences.hpp"
 
@@ -57,18 +58,15 @@ bool CalibrationCheck::add_board(const GreyPair& pair) {
   if (!seen_right) return false;
   align_numbering(board_, *seen_left, *seen_right);
   const CommonPoints common = common_points(*seen_left, *seen_right);
-  if (common.ids.size() < 2) return false;
-  const Rectification& rectification = *calibration_.rectification;
-  const auto left =
-      rectified_points(common.left, calibration_.left, rectification.R1, rectification.P1);
-  const auto right =
-      rectified_points(common.right, calibration_.right, rectification.R2, rectification.P2);
+  const RectifiedPoints rectified = rectified_points(common, calibration_);
+  if (rectified.ids.size() < 2) return false;
+  const auto& [ids, left, right] = rectified;
   for (std::size_t i = 0; i < left.size(); ++i)
     result_.row_differences_px.push_back(right[i].y - left[i].y);
+  const Rectification& rectification = *calibration_.rectification;
   const double measured_m = cv::norm(triangulate(left.back(), right.back(), rectification) -
                                      triangulate(left.front(), right.front(), rectification));
-  const double known_m =
-      cv::norm(board_.point_m(common.ids.back()) - board_.point_m(common.ids.front()));
+  const double known_m = cv::norm(board_.point_m(ids.back()) - board_.point_m(ids.front()));
   result_.length_errors.push_back(measured_m / known_m - 1.0);
   ++result_.board_pairs;
   return true;

@@ -110,12 +110,12 @@ std::vector<std::string> advise(const StereoFit& fit, const cv::Size& image_size
 }
 
 bool complete(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
-              const CompletionParams& params) {
+              LensModel model, const CompletionParams& params) {
   const auto taken = static_cast<int>(views.size());
   if (taken >= params.most_views) return true;
   // What needs no fit comes first: a fit takes seconds.
   if (taken < params.enough_views || !advise_places(views, image_size).empty()) return false;
-  const StereoFit fit = fit_stereo(views, board, image_size);
+  const StereoFit fit = fit_stereo(views, board, image_size, model);
   return advise(fit, image_size).empty() &&
          judge(fit, least_coverage(fit.views, image_size)).faults.empty();
 }

@@ -47,8 +47,8 @@ struct CompletionParams {
 };
 
 /// Whether a video or camera has shown enough: a calibration from these views may be used, and no
-/// shots are to be added.
+/// shots are to be added. Lenses of `model`.
 bool complete(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
-              const CompletionParams& params = {});
+              LensModel model, const CompletionParams& params = {});
 
 }  // namespace limbcast::calibrate

@@ -23,6 +23,9 @@ struct FitParams {
   /// Stricter than the 30 and 1e-6 that cv::stereoCalibrate has by default.
   int max_iterations = 100;
   double min_change = 1e-7;
+  /// Fields across the longer side of the image from which the fit of a fisheye lens begins
+  /// [degrees], those that are sold; in such steps it finds the lens from the nearest one.
+  double smallest_fisheye_deg = 60.0, largest_fisheye_deg = 240.0, fisheye_step_deg = 20.0;
 };
 
 }  // namespace limbcast::calibrate

@@ -24,11 +24,13 @@ std::string view_table(const std::vector<ViewFit>& figures) {
   std::string table =
       "view                  points  reprojection left  right  epipolar [px]  distance [m]  tilt "
       "sideways  up/down [deg]\n";
-  for (const ViewFit& view : figures)
+  for (const ViewFit& view : figures) {
+    const std::string epipolar = view.num_rectified > 0 ? formatted("%.2f", view.epipolar_px) : "-";
     table +=
-        formatted("%-20s  %6d  %17.2f  %5.2f  %13.2f  %12.2f  %13.0f  %13.0f\n", view.name.c_str(),
+        formatted("%-20s  %6d  %17.2f  %5.2f  %13s  %12.2f  %13.0f  %13.0f\n", view.name.c_str(),
                   view.num_points, view.reprojection_left_px, view.reprojection_right_px,
-                  view.epipolar_px, view.distance_m, view.tilt_sideways_deg, view.tilt_updown_deg);
+                  epipolar.c_str(), view.distance_m, view.tilt_sideways_deg, view.tilt_updown_deg);
+  }
   return table;
 }
 

@@ -18,16 +18,21 @@
 namespace limbcast::calibrate {
 namespace {
 
+constexpr const char* kFisheye = "fisheye";
+
 struct Options {
   SourceOptions source;
   BoardOptions board;
-  std::string output, picture;
+  std::string lens = "pinhole", output, picture;
   CompletionParams completion;
 };
 
 void declare(config::Section& section, Options& options) {
   declare_source(section, options.source);
   declare(section, options.board);
+  section.add_choice("lens", options.lens, {"pinhole", kFisheye},
+                     "how both lenses are made: pinhole, with k1 k2 p1 p2 k3 (ROS: plumb_bob), or "
+                     "fisheye, with k1 to k4 of the angle (ROS: equidistant)");
   section.add("output", options.output, "calibration file to write (OpenCV YAML)");
   section.add_name("picture", options.picture,
                    "picture to draw of the covered area and the errors, .png or .jpg");
@@ -35,6 +40,10 @@ void declare(config::Section& section, Options& options) {
               "from a video or camera, stop when so many views are taken, or earlier where nothing "
               "is missing",
               {5, 500});
+}
+
+LensModel model_of(const Options& options) {
+  return options.lens == kFisheye ? LensModel::kFisheye : LensModel::kPinhole;
 }
 
 void print(const std::string& words) { std::fputs(words.c_str(), stdout); }
@@ -91,7 +100,8 @@ ViewCollector collect_from_video(const Options& options, const Board& board) {
       return true;
     }
     tell_taken(collector);
-    return !complete(collector.views(), board, collector.image_size(), options.completion);
+    return !complete(collector.views(), board, collector.image_size(), model_of(options),
+                     options.completion);
   });
   return collector;
 }
@@ -114,7 +124,8 @@ bool calibrate(const Options& options) {
                                       ? collect_from_video(options, board)
                                       : collect_shots(options.source, board);
   check_enough(collector.views(), collector.rejected());
-  const StereoFit fit = fit_stereo(collector.views(), board, collector.image_size());
+  const StereoFit fit =
+      fit_stereo(collector.views(), board, collector.image_size(), model_of(options));
   print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
   print_advice(advise(fit, collector.image_size()));
   const bool accepted = accept(fit, collector.image_size());

@@ -5,50 +5,43 @@
 #include <map>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "common/camera/calibration_checks.hpp"
+#include "common/camera/lens_projection.hpp"
 #include "common/camera/opencv_conversion.hpp"
 #include "common/formatted.hpp"
 #include "common/joined.hpp"
 #include "common/median.hpp"
 #include "common/units.hpp"
+#include "modules/calibrate/fisheye_fit.hpp"
 #include "modules/calibrate/view_agreement.hpp"
-#include "modules/reconstructor/rectifier.hpp"
+#include "modules/reconstructor/rectification.hpp"
 
 namespace limbcast::calibrate {
 namespace {
 
-LensCalibration to_calibration(const Lens& lens, const cv::Size& size) {
-  LensCalibration calibration;
-  const cv::Matx33d K = lens.K;
-  calibration.camera = {size.width, size.height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
-  calibration.distortion.assign(lens.D.begin<double>(), lens.D.end<double>());
-  return calibration;
-}
-
-double epipolar_rms_px(const CommonPoints& common, const StereoCalibration& calibration) {
-  const Rectification& rectification = *calibration.rectification;
-  const auto left =
-      rectified_points(common.left, calibration.left, rectification.R1, rectification.P1);
-  const auto right =
-      rectified_points(common.right, calibration.right, rectification.R2, rectification.P2);
+void set_epipolar_error(const CommonPoints& common, const StereoCalibration& calibration,
+                        ViewFit& figures) {
+  const RectifiedPoints rectified = rectified_points(common, calibration);
+  figures.num_rectified = static_cast<int>(rectified.left.size());
+  if (figures.num_rectified == 0) return;
   double squares = 0.0;
-  for (std::size_t i = 0; i < left.size(); ++i)
-    squares += (left[i].y - right[i].y) * (left[i].y - right[i].y);
-  return std::sqrt(squares / static_cast<double>(left.size()));
+  for (std::size_t i = 0; i < rectified.left.size(); ++i) {
+    const double difference_px = rectified.left[i].y - rectified.right[i].y;
+    squares += difference_px * difference_px;
+  }
+  figures.epipolar_px = std::sqrt(squares / figures.num_rectified);
 }
 
 void set_pose(const CommonPoints& common, const Board& board, const LensCalibration& lens,
-              ViewFit& figures) {
-  cv::Vec3d rotation;
-  cv::Vec3d translation;
+              const FitParams& params, ViewFit& figures) {
   const std::vector<cv::Point3f> points = points_of(board, common.ids);
-  cv::solvePnP(points, common.left, camera_matrix(lens.camera), lens.distortion, rotation,
-               translation);
+  const Pose pose = find_pose({points.begin(), points.end()},
+                              {common.left.begin(), common.left.end()}, lens, {}, params);
   cv::Matx33d R;
-  cv::Rodrigues(rotation, R);
+  cv::Rodrigues(pose.rotation, R);
+  const cv::Vec3d translation(pose.translation.ptr<double>());
   const cv::Point3f middle =
       0.5F * (point_in_squares(board, 0) + point_in_squares(board, board.num_points() - 1));
   figures.distance_m =
@@ -60,94 +53,125 @@ void set_pose(const CommonPoints& common, const Board& board, const LensCalibrat
   figures.tilt_updown_deg = kDegreesPerRadian<double> * std::atan2(sign * R(1, 2), sign * R(2, 2));
 }
 
-double rms_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
+/// An error of the views, and how many points show it in each.
+struct ErrorKind {
+  const char* name;
+  double (*px)(const ViewFit&);
+  int (*num_points)(const ViewFit&);
+};
+constexpr ErrorKind kReprojection = {
+    "reprojection",
+    [](const ViewFit& view) {
+      return std::hypot(view.reprojection_left_px, view.reprojection_right_px) / std::sqrt(2.0);
+    },
+    [](const ViewFit& view) { return view.num_points; }};
+constexpr ErrorKind kWorseReprojection = {"reprojection",
+                                          [](const ViewFit& view) {
+                                            return std::max(view.reprojection_left_px,
+                                                            view.reprojection_right_px);
+                                          },
+                                          [](const ViewFit& view) { return view.num_points; }};
+constexpr ErrorKind kEpipolar = {"epipolar", [](const ViewFit& view) { return view.epipolar_px; },
+                                 [](const ViewFit& view) { return view.num_rectified; }};
+
+/// Of all points.
+double rms_of(const std::vector<ViewFit>& figures, const ErrorKind& kind) {
   double squares = 0.0;
   double count = 0.0;
   for (const ViewFit& view : figures) {
-    squares += view.num_points * error_px(view) * error_px(view);
-    count += view.num_points;
+    squares += kind.num_points(view) * kind.px(view) * kind.px(view);
+    count += kind.num_points(view);
   }
-  return std::sqrt(squares / count);
+  return std::sqrt(squares / std::max(1.0, count));
 }
 
-double reprojection_px(const ViewFit& view) {
-  return std::hypot(view.reprojection_left_px, view.reprojection_right_px) / std::sqrt(2.0);
-}
-double epipolar_px(const ViewFit& view) { return view.epipolar_px; }
-
-/// Lenses and pose of the pair, all at once, from the lenses that each camera alone has found.
-StereoFit fit_pair(const std::vector<View>& views, const Board& board, const cv::Size& size,
-                   const FitParams& params, const Lenses& lenses, Distortion distortion) {
-  auto [left, right] = lenses;
-  // cv::stereoCalibrate refines them in place.
-  for (cv::Mat* refined : {&left.K, &left.D, &right.K, &right.D}) *refined = refined->clone();
-  std::vector<CommonPoints> common;
-  std::vector<std::vector<cv::Point3f>> points;
-  std::vector<std::vector<cv::Point2f>> pixels_left;
-  std::vector<std::vector<cv::Point2f>> pixels_right;
-  for (const View& view : views) {
-    common.push_back(common_points(view.left, view.right));
-    points.push_back(points_of(board, common.back().ids));
-    pixels_left.push_back(common.back().left);
-    pixels_right.push_back(common.back().right);
-  }
+/// Pinholes and pose of a pair, all at once, from the lenses that each camera alone has found.
+PairFit refine_pinholes(const Lenses& lenses, const SeenPoints& left, const SeenPoints& right,
+                        const FitParams& params, Distortion distortion) {
+  const auto matrix_of = [](const Lens& lens) {
+    return cv::Mat(camera_matrix(lens.calibration.camera));
+  };
+  const auto coefficients_of = [](const Lens& lens) {
+    return cv::Mat(lens.calibration.distortion, true);
+  };
+  cv::Mat K1 = matrix_of(lenses.left), D1 = coefficients_of(lenses.left);
+  cv::Mat K2 = matrix_of(lenses.right), D2 = coefficients_of(lenses.right);
+  const PinholeCamera& camera = lenses.left.calibration.camera;
+  const cv::Size size(camera.width, camera.height);
   cv::Mat R;
   cv::Mat T;
   cv::Mat view_errors;
   cv::stereoCalibrate(
-      points, pixels_left, pixels_right, left.K, left.D, right.K, right.D, size, R, T,
-      cv::noArray(), cv::noArray(), view_errors,
-      cv::CALIB_USE_INTRINSIC_GUESS | flags_of(distortion),
+      left.points, left.pixels, right.pixels, K1, D1, K2, D2, size, R, T, cv::noArray(),
+      cv::noArray(), view_errors, cv::CALIB_USE_INTRINSIC_GUESS | flags_of(distortion),
       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, params.max_iterations, params.min_change});
+  PairFit pair{pinhole_of(K1, D1, size), pinhole_of(K2, D2, size), {}, {}, {}};
+  cv::cv2eigen(R, pair.R);
+  cv::cv2eigen(T, pair.T);
+  for (int view = 0; view < view_errors.rows; ++view)
+    pair.errors_px.emplace_back(view_errors.at<double>(view, 0), view_errors.at<double>(view, 1));
+  return pair;
+}
+
+/// Lenses and pose of the pair, all at once, from the lenses that each camera alone has found.
+StereoFit fit_pair(const std::vector<View>& views, const Board& board, const FitParams& params,
+                   const Lenses& lenses, Distortion distortion) {
+  std::vector<CommonPoints> common;
+  SeenPoints left;
+  SeenPoints right;
+  for (const View& view : views) {
+    common.push_back(common_points(view.left, view.right));
+    left.points.push_back(points_of(board, common.back().ids));
+    left.pixels.push_back(common.back().left);
+    right.pixels.push_back(common.back().right);
+  }
+  right.points = left.points;
+  const PairFit pair = is_fisheye(distortion)
+                           ? refine_fisheyes(lenses, pose_of_pair(views, board, lenses, params),
+                                             left, right, distortion, params)
+                           : refine_pinholes(lenses, left, right, params, distortion);
 
   StereoFit fit;
   fit.distortion = distortion;
-  fit.calibration.left = to_calibration(left, size);
-  fit.calibration.right = to_calibration(right, size);
-  cv::cv2eigen(R, fit.calibration.R);
-  cv::cv2eigen(T, fit.calibration.T);
-  fit.calibration.T *= board.square_m;
+  fit.calibration.left = pair.left;
+  fit.calibration.right = pair.right;
+  fit.calibration.R = pair.R;
+  fit.calibration.T = board.square_m * pair.T;
   fit.calibration.rectification = reconstructor::compute_rectification(fit.calibration);
-  fit.left = left.uncertainty;
-  fit.right = right.uncertainty;
+  fit.left = lenses.left.uncertainty;
+  fit.right = lenses.right.uncertainty;
   fit.views = views;
   for (std::size_t i = 0; i < views.size(); ++i) {
     ViewFit figures;
     figures.name = views[i].name;
     figures.num_points = static_cast<int>(common[i].ids.size());
-    figures.reprojection_left_px = view_errors.at<double>(static_cast<int>(i), 0);
-    figures.reprojection_right_px = view_errors.at<double>(static_cast<int>(i), 1);
-    figures.epipolar_px = epipolar_rms_px(common[i], fit.calibration);
-    set_pose(common[i], board, fit.calibration.left, figures);
+    figures.reprojection_left_px = pair.errors_px[i][0];
+    figures.reprojection_right_px = pair.errors_px[i][1];
+    set_epipolar_error(common[i], fit.calibration, figures);
+    set_pose(common[i], board, fit.calibration.left, params, figures);
     fit.figures.push_back(figures);
   }
-  fit.reprojection_px = rms_of(fit.figures, reprojection_px);
-  fit.epipolar_px = rms_of(fit.figures, epipolar_px);
+  fit.reprojection_px = rms_of(fit.figures, kReprojection);
+  fit.epipolar_px = rms_of(fit.figures, kEpipolar);
   return fit;
 }
 
-double median_of(const std::vector<ViewFit>& figures, double (*error_px)(const ViewFit&)) {
+/// Of the views that show it.
+double median_of(const std::vector<ViewFit>& figures, const ErrorKind& kind) {
   std::vector<double> errors_px;
-  for (const ViewFit& view : figures) errors_px.push_back(error_px(view));
-  return median(std::move(errors_px));
-}
-
-double worst_reprojection_px(const ViewFit& view) {
-  return std::max(view.reprojection_left_px, view.reprojection_right_px);
+  for (const ViewFit& view : figures) {
+    if (kind.num_points(view) > 0) errors_px.push_back(kind.px(view));
+  }
+  return errors_px.empty() ? 0.0 : median(std::move(errors_px));
 }
 
 Outlier worst_view(const std::vector<ViewFit>& figures, const FitParams& params) {
-  struct Kind {
-    const char* name;
-    double (*error_px)(const ViewFit&);
-  };
   Outlier worst;
-  for (const Kind& kind :
-       {Kind{"reprojection", worst_reprojection_px}, Kind{"epipolar", epipolar_px}}) {
+  for (const ErrorKind& kind : {kWorseReprojection, kEpipolar}) {
     const double limit_px =
-        std::max(params.outlier_px, params.outlier_factor * median_of(figures, kind.error_px));
+        std::max(params.outlier_px, params.outlier_factor * median_of(figures, kind));
     for (std::size_t i = 0; i < figures.size(); ++i) {
-      const double error_px = kind.error_px(figures[i]);
+      const double error_px = kind.px(figures[i]);
       if (error_px / limit_px <= worst.excess) continue;
       worst = {
           i, error_px / limit_px,
@@ -196,16 +220,33 @@ void judge_lens(const char* side, const LensCalibration& lens, const LensUncerta
                                fault->remedy.c_str()));
 }
 
+/// Without the points that the rectified images do not show.
+RectifiedPoints only_visible(const RectifiedPoints& points, const PinholeCamera& camera) {
+  const cv::Rect2d image(0.0, 0.0, camera.width, camera.height);
+  RectifiedPoints visible;
+  for (std::size_t i = 0; i < points.ids.size(); ++i) {
+    if (!image.contains(points.left[i]) || !image.contains(points.right[i])) continue;
+    visible.ids.push_back(points.ids[i]);
+    visible.left.push_back(points.left[i]);
+    visible.right.push_back(points.right[i]);
+  }
+  return visible;
+}
+
 }  // namespace
 
-std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels,
-                                          const LensCalibration& lens, const Eigen::Matrix3d& R,
-                                          const Eigen::Matrix<double, 3, 4>& P) {
-  const std::vector<cv::Point2d> exact(pixels.begin(), pixels.end());
-  std::vector<cv::Point2d> result;
-  cv::undistortPoints(exact, result, camera_matrix(lens.camera), lens.distortion, to_cv(R),
-                      to_cv(P));
-  return result;
+RectifiedPoints rectified_points(const CommonPoints& common, const StereoCalibration& calibration) {
+  const Rectification& rectification = *calibration.rectification;
+  const std::vector<cv::Point2d> left(common.left.begin(), common.left.end());
+  const std::vector<cv::Point2d> right(common.right.begin(), common.right.end());
+  RectifiedPoints result{common.ids, {}, {}};
+  undistort_points(left, result.left, calibration.left, to_cv(rectification.R1),
+                   to_cv(rectification.P1));
+  undistort_points(right, result.right, calibration.right, to_cv(rectification.R2),
+                   to_cv(rectification.P2));
+  return calibration.left.model == LensModel::kFisheye
+             ? only_visible(result, calibration.left.camera)
+             : result;
 }
 
 void check_enough(const std::vector<View>& views, const std::vector<RejectedView>& rejected,
@@ -232,12 +273,12 @@ StereoFit fit_without_outliers(const std::vector<View>& views, const Board& boar
   std::vector<RejectedView> outliers;
   while (true) {
     check_enough(kept, outliers, params);
-    const Lenses lenses = fit_lenses(kept, board, image_size, distortion);
+    const Lenses lenses = fit_lenses(kept, board, image_size, distortion, params);
     Outlier outlier;
     if (focal_sigma(lenses) <= params.known_focal_sigma)
       outlier = most_disagreeing_view(kept, board, lenses, params);
     if (outlier.excess <= 1.0) {
-      StereoFit fit = fit_pair(kept, board, image_size, params, lenses, distortion);
+      StereoFit fit = fit_pair(kept, board, params, lenses, distortion);
       outlier = worst_view(fit.figures, params);
       if (outlier.excess <= 1.0) {
         fit.outliers = std::move(outliers);
@@ -257,17 +298,19 @@ bool folds_an_image(const StereoFit& fit) {
 }  // namespace
 
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
-                     const FitParams& params) {
+                     LensModel model, const FitParams& params) {
   const auto fit_with = [&](Distortion distortion) {
     return fit_without_outliers(views, board, image_size, params, distortion);
   };
-  const StereoFit fit = fit_with(Distortion::kWithK3);
+  const bool fisheye = model == LensModel::kFisheye;
+  const StereoFit fit = fit_with(fisheye ? Distortion::kFisheye : Distortion::kWithK3);
   if (!folds_an_image(fit)) return fit;
   try {
-    const StereoFit stiffer = fit_with(Distortion::kWithoutK3);
+    const StereoFit stiffer =
+        fit_with(fisheye ? Distortion::kFisheyeWithoutK3 : Distortion::kWithoutK3);
     if (!folds_an_image(stiffer)) return stiffer;
   } catch (const std::runtime_error&) {
-    // Too few views fit such lenses: those with k3 are told, and why they must not be used.
+    // Too few views fit such lenses: the first ones are told, and why they must not be used.
   }
   return fit;
 }
@@ -322,10 +365,12 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
     verdict.warnings.push_back(
         formatted("by this the cameras are %.4g mm apart; is --square-mm in millimetres?",
                   kMillimetersPerMeter<double> * T.norm()));
-  if (fit.distortion == Distortion::kWithoutK3)
+  const bool lacks_k4 = fit.distortion == Distortion::kFisheyeWithoutK3;
+  if (lacks_k4 || fit.distortion == Distortion::kWithoutK3)
     verdict.warnings.push_back(
-        "the distortion has no k3: with it the image would fold where no board was shown; show it "
-        "at the image's borders, too");
+        formatted("the distortion has no %s the image would fold where no board was shown; show it "
+                  "at the image's borders, too",
+                  lacks_k4 ? "k3 and k4: with them" : "k3: with it"));
   if (static_cast<int>(fit.views.size()) < params.enough_views)
     verdict.warnings.push_back(formatted("only %zu views; %d or more give a better result",
                                          fit.views.size(), params.enough_views));

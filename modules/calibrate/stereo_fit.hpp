@@ -15,7 +15,9 @@ struct ViewFit {
   std::string name;
   int num_points = 0;                                              ///< that both images show
   double reprojection_left_px = 0.0, reprojection_right_px = 0.0;  ///< RMS
-  double epipolar_px = 0.0;  ///< RMS difference of the rows after rectification
+  /// Of them, those that both rectified images show: less of a fisheye's.
+  int num_rectified = 0;
+  double epipolar_px = 0.0;  ///< RMS difference of their rows
   double distance_m = 0.0;   ///< of the board's middle from the left camera
   /// Angle between the board and the image, about the image's y axis (to the left or right) and x
   /// axis (up or down).
@@ -40,15 +42,20 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 /// Lenses and pose of a stereo pair from views of a board (Zhang 2000; cv::calibrateCamera for each
 /// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
 /// one is an outlier, by the lenses of each camera alone or of all at once. Where a lens folds the
-/// image, as k3 may do beyond the boards, all of it without k3. Throws std::runtime_error where
-/// there are too few views.
+/// image, as k3 may do beyond the boards, all of it without k3. Lenses of `model`; fisheyes by
+/// least squares in place of OpenCV's functions. Throws std::runtime_error where there are too few
+/// views.
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
-                     const FitParams& params = {});
+                     LensModel model = LensModel::kPinhole, const FitParams& params = {});
 
-/// Where these pixels of a raw image stand in the rectified one.
-std::vector<cv::Point2d> rectified_points(const std::vector<cv::Point2f>& pixels,
-                                          const LensCalibration& lens, const Eigen::Matrix3d& R,
-                                          const Eigen::Matrix<double, 3, 4>& P);
+/// Points of the board in both rectified images [px].
+struct RectifiedPoints {
+  std::vector<int> ids;
+  std::vector<cv::Point2d> left, right;
+};
+/// Those of `calibration`'s rectification; of fisheye lenses only the points that its images show,
+/// since far off the axis, where those end, all errors grow without limit.
+RectifiedPoints rectified_points(const CommonPoints& common, const StereoCalibration& calibration);
 
 struct Verdict {
   std::vector<std::string> faults;    ///< why the result must not be used; empty: it may

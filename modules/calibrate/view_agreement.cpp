@@ -7,6 +7,7 @@
 #include <numeric>
 #include <opencv2/calib3d.hpp>
 
+#include "common/camera/lens_projection.hpp"
 #include "common/formatted.hpp"
 #include "common/median.hpp"
 
@@ -27,8 +28,8 @@ std::vector<Sighting> sightings_of(const std::vector<View>& views, const Board& 
   for (std::size_t i = 0; i < views.size(); ++i) {
     const CommonPoints common = common_points(views[i].left, views[i].right);
     cv::Matx33d R;
-    cv::Rodrigues(left.rotations[i], R);
-    const cv::Vec3d t(left.translations[i].ptr<double>());
+    cv::Rodrigues(left.boards[i].rotation, R);
+    const cv::Vec3d t(left.boards[i].translation.ptr<double>());
     Sighting sighting;
     for (const cv::Point3f& point : points_of(board, common.ids))
       sighting.points.emplace_back(R * cv::Vec3d(point.x, point.y, point.z) + t);
@@ -38,34 +39,32 @@ std::vector<Sighting> sightings_of(const std::vector<View>& views, const Board& 
   return sightings;
 }
 
-/// From the left camera's frame to the right one's (Rodrigues vector; sides of a square).
-struct PairPose {
-  cv::Mat rotation = cv::Mat::zeros(3, 1, CV_64F), translation = cv::Mat::zeros(3, 1, CV_64F);
-};
-
-/// That with which one view puts the board in the same place by both images.
-PairPose pose_by(const Lenses& lenses, std::size_t view) {
+/// From the left camera to the right one, so that one view puts the board in the same place by both
+/// images.
+Pose pose_by(const Lenses& lenses, std::size_t view) {
+  const Pose& left = lenses.left.boards[view];
+  const Pose& right = lenses.right.boards[view];
   cv::Matx33d R;
-  cv::Rodrigues(lenses.left.rotations[view], R);
+  cv::Rodrigues(left.rotation, R);
   cv::Mat back_rotation;
   cv::Rodrigues(R.t(), back_rotation);
-  const cv::Mat back_translation = -cv::Mat(R.t()) * lenses.left.translations[view];
-  PairPose pose;
-  cv::composeRT(back_rotation, back_translation, lenses.right.rotations[view],
-                lenses.right.translations[view], pose.rotation, pose.translation);
+  const cv::Mat back_translation = -cv::Mat(R.t()) * left.translation;
+  Pose pose;
+  cv::composeRT(back_rotation, back_translation, right.rotation, right.translation, pose.rotation,
+                pose.translation);
   return pose;
 }
 
-std::vector<cv::Point2d> pixels_of(const std::vector<cv::Point3d>& points, const PairPose& pose,
+std::vector<cv::Point2d> pixels_of(const std::vector<cv::Point3d>& points, const Pose& pose,
                                    const Lens& lens) {
   std::vector<cv::Point2d> pixels;
-  cv::projectPoints(points, pose.rotation, pose.translation, lens.K, lens.D, pixels);
+  project_points(points, pose.rotation, pose.translation, lens.calibration, pixels);
   return pixels;
 }
 
 /// How the pixels of points change where the board that they are on turns about their middle, about
 /// each axis [px / rad], and moves along each [px / side of a square].
-Eigen::MatrixXd changes_of(const std::vector<cv::Point3d>& points, const PairPose& pose,
+Eigen::MatrixXd changes_of(const std::vector<cv::Point3d>& points, const Pose& pose,
                            const Lens& lens, double small_motion) {
   const cv::Point3d middle =
       std::accumulate(points.begin(), points.end(), cv::Point3d()) * (1.0 / points.size());
@@ -91,7 +90,7 @@ Eigen::MatrixXd changes_of(const std::vector<cv::Point3d>& points, const PairPos
 /// RMS distance of the points that the right image shows from where the left one puts them, where
 /// both images' points are off by 1 px along each axis: more for a board that is small in the
 /// image, whose distance is known less well.
-double expected_disagreement(const Sighting& sighting, const Lenses& lenses, const PairPose& pose,
+double expected_disagreement(const Sighting& sighting, const Lenses& lenses, const Pose& pose,
                              double small_motion) {
   const Eigen::MatrixXd left = changes_of(sighting.points, {}, lenses.left, small_motion);
   const Eigen::MatrixXd right = changes_of(sighting.points, pose, lenses.right, small_motion);
@@ -103,7 +102,7 @@ double expected_disagreement(const Sighting& sighting, const Lenses& lenses, con
 /// RMS distance of the points that the right image shows from where the left one and this pose put
 /// them, for each view.
 std::vector<double> disagreements_px(const std::vector<Sighting>& sightings, const Lens& right,
-                                     const PairPose& pose) {
+                                     const Pose& pose) {
   std::vector<double> errors_px;
   for (const Sighting& sighting : sightings)
     errors_px.push_back(cv::norm(pixels_of(sighting.points, pose, right), sighting.pixels) /
@@ -113,12 +112,13 @@ std::vector<double> disagreements_px(const std::vector<Sighting>& sightings, con
 
 /// The pose on which most views agree: that of the one view with the least median of disagreements
 /// (Rousseeuw 1984), made exact by the half of the views that agrees best with it.
-PairPose agreed_pose(const std::vector<Sighting>& sightings, const Lenses& lenses) {
-  PairPose pose;
+Pose agreed_pose(const std::vector<Sighting>& sightings, const Lenses& lenses,
+                 const FitParams& params) {
+  Pose pose;
   std::vector<double> errors_px;
   double least_px = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const PairPose candidate = pose_by(lenses, i);
+    const Pose candidate = pose_by(lenses, i);
     const std::vector<double> candidate_px = disagreements_px(sightings, lenses.right, candidate);
     if (median(candidate_px) >= least_px) continue;
     pose = candidate;
@@ -133,17 +133,20 @@ PairPose agreed_pose(const std::vector<Sighting>& sightings, const Lenses& lense
     agreed.pixels.insert(agreed.pixels.end(), sightings[i].pixels.begin(),
                          sightings[i].pixels.end());
   }
-  cv::solvePnP(agreed.points, agreed.pixels, lenses.right.K, lenses.right.D, pose.rotation,
-               pose.translation, true);
-  return pose;
+  return find_pose(agreed.points, agreed.pixels, lenses.right.calibration, pose, params);
 }
 
 }  // namespace
 
+Pose pose_of_pair(const std::vector<View>& views, const Board& board, const Lenses& lenses,
+                  const FitParams& params) {
+  return agreed_pose(sightings_of(views, board, lenses.left), lenses, params);
+}
+
 Outlier most_disagreeing_view(const std::vector<View>& views, const Board& board,
                               const Lenses& lenses, const FitParams& params) {
   const std::vector<Sighting> sightings = sightings_of(views, board, lenses.left);
-  const PairPose pose = agreed_pose(sightings, lenses);
+  const Pose pose = agreed_pose(sightings, lenses, params);
   const std::vector<double> errors_px = disagreements_px(sightings, lenses.right, pose);
   std::vector<double> expected;
   std::vector<double> ratios;

@@ -17,6 +17,10 @@ struct Outlier {
   std::string reason;
 };
 
+/// From the left camera to the right one, as most views put it. `lenses` are those of these views.
+Pose pose_of_pair(const std::vector<View>& views, const Board& board, const Lenses& lenses,
+                  const FitParams& params);
+
 /// The view whose right image shows the board farthest from where the left one and the other views
 /// put it, as a share of what is allowed. Before the lenses are refined by what both cameras see:
 /// then they bend until a board that moved between the images fits and the good views no longer do.

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <opencv2/calib3d.hpp>
 
-#include "common/camera/opencv_conversion.hpp"
+#include "common/camera/lens_projection.hpp"
 
 namespace limbcast::depth_camera {
 namespace {
@@ -18,7 +17,7 @@ std::vector<cv::Point2d> rays_of(const LensCalibration& lens) {
     for (int u = 0; u < lens.camera.width; ++u) pixels.emplace_back(u, v);
   }
   std::vector<cv::Point2d> rays;
-  cv::undistortPoints(pixels, rays, camera_matrix(lens.camera), lens.distortion);
+  undistort_points(pixels, rays, lens);
   return rays;
 }
 
@@ -67,8 +66,7 @@ cv::Mat1w DepthRegistration::registered(const cv::Mat& depth) const {
   cv::Mat1w result(color_.camera.height, color_.camera.width, std::uint16_t{0});
   if (points_m.empty()) return result;
   std::vector<cv::Point2d> pixels;
-  cv::projectPoints(points_m, cv::Vec3d::all(0.0), cv::Vec3d::all(0.0),
-                    camera_matrix(color_.camera), color_.distortion, pixels);
+  project_points(points_m, cv::Vec3d::all(0.0), cv::Vec3d::all(0.0), color_, pixels);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const long value = std::lround(points_m[i].z / depth_scale_m_);
     if (value < 1 || value > std::numeric_limits<std::uint16_t>::max()) continue;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "common/camera/lens_projection.hpp"
+#include "common/camera/opencv_conversion.hpp"
 #include "modules/reconstructor/colors.hpp"
 
 namespace limbcast::reconstructor {
@@ -20,27 +21,21 @@ void check(const cv::Mat& depth, const cv::Mat& color, const PinholeCamera& came
     throw std::invalid_argument("colour and depth image differ in size");
 }
 
-bool has_distortion(const LensCalibration& lens) {
-  for (const double coefficient : lens.distortion)
-    if (coefficient != 0.0) return true;
-  return false;
-}
-
 struct UndistortedImages {
   cv::Mat depth, color;
 };
 UndistortedImages undistort(const cv::Mat& depth, const cv::Mat& color,
                             const LensCalibration& lens) {
   if (!has_distortion(lens)) return {depth, color};
-  const PinholeCamera& camera = lens.camera;
-  const cv::Matx33d matrix(camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0);
-  cv::Mat map, fraction;
-  cv::initUndistortRectifyMap(matrix, lens.distortion, cv::noArray(), matrix, depth.size(),
-                              CV_16SC2, map, fraction);
+  const LensMaps maps =
+      undistorting_maps(lens, cv::noArray(), camera_matrix(lens.camera), depth.size());
+  // Depths of two surfaces must not be mixed: the nearest pixel's is taken. The maps' whole pixels
+  // alone are rounded down, half a pixel off on average.
+  cv::Mat places;
+  cv::convertMaps(maps.xy, maps.fraction, places, cv::noArray(), CV_32FC2);
   UndistortedImages result;
-  // Depths of two surfaces must not be mixed.
-  cv::remap(depth, result.depth, map, cv::noArray(), cv::INTER_NEAREST);
-  if (!color.empty()) cv::remap(color, result.color, map, fraction, cv::INTER_LINEAR);
+  cv::remap(depth, result.depth, places, cv::noArray(), cv::INTER_NEAREST);
+  if (!color.empty()) cv::remap(color, result.color, maps.xy, maps.fraction, cv::INTER_LINEAR);
   return result;
 }
 

@@ -1,13 +1,12 @@
 #include "modules/reconstructor/rectifier.hpp"
 
 #include <cmath>
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
 
 #include "common/camera/opencv_conversion.hpp"
+#include "modules/reconstructor/rectification.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
@@ -34,8 +33,7 @@ double checked_baseline_m(const Rectification& rectification) {
 bool is_identity(const LensCalibration& lens, const Eigen::Matrix3d& rotation,
                  const PinholeCamera& rectified) {
   constexpr double kSamePx = 1e-3;  // far below what a match can tell
-  for (const double coefficient : lens.distortion)
-    if (coefficient != 0.0) return false;
+  if (has_distortion(lens)) return false;
   const PinholeCamera& camera = lens.camera;
   return rotation.isApprox(Eigen::Matrix3d::Identity(), 1e-9) && camera.width == rectified.width &&
          camera.height == rectified.height && std::abs(camera.fx - rectified.fx) < kSamePx &&
@@ -68,21 +66,6 @@ void check_size(const cv::Mat& image, const PinholeCamera& lens, const char* sid
 
 }  // namespace
 
-Rectification compute_rectification(const StereoCalibration& calibration) {
-  const cv::Size size(calibration.left.camera.width, calibration.left.camera.height);
-  cv::Mat R1, R2, P1, P2, Q;
-  cv::stereoRectify(camera_matrix(calibration.left.camera), calibration.left.distortion,
-                    camera_matrix(calibration.right.camera), calibration.right.distortion, size,
-                    to_cv(calibration.R), to_cv(calibration.T), R1, R2, P1, P2, Q,
-                    cv::CALIB_ZERO_DISPARITY, 0.0, size);
-  Rectification result;
-  cv::cv2eigen(R1, result.R1);
-  cv::cv2eigen(R2, result.R2);
-  cv::cv2eigen(P1, result.P1);
-  cv::cv2eigen(P2, result.P2);
-  return result;
-}
-
 Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
     : lens_left_(calibration.left.camera), lens_right_(calibration.right.camera) {
   if (lens_left_.width <= 0 || lens_left_.height <= 0)
@@ -97,18 +80,15 @@ Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
   // Both images are resampled with the left camera's matrix, so that a point at infinity has
   // disparity 0 even where the calibration gives the two different principal points.
   const auto make_maps = [&](const LensCalibration& lens, const Eigen::Matrix3d& rotation) {
-    Maps maps;
-    if (is_identity(lens, rotation, full)) return maps;
-    cv::initUndistortRectifyMap(camera_matrix(lens.camera), lens.distortion, to_cv(rotation),
-                                camera_matrix(full), cv::Size(full.width, full.height), CV_16SC2,
-                                maps.xy, maps.fraction);
-    return maps;
+    if (is_identity(lens, rotation, full)) return LensMaps{};
+    return undistorting_maps(lens, to_cv(rotation), camera_matrix(full),
+                             cv::Size(full.width, full.height));
   };
   left_maps_ = make_maps(calibration.left, rectification.R1);
   right_maps_ = make_maps(calibration.right, rectification.R2);
 }
 
-cv::Mat Rectifier::resample(const cv::Mat& image, const Maps& maps) const {
+cv::Mat Rectifier::resample(const cv::Mat& image, const LensMaps& maps) const {
   cv::Mat result;
   if (maps.xy.empty())
     result = image;

@@ -3,12 +3,9 @@
 #include <opencv2/core/mat.hpp>
 
 #include "common/camera/calibration.hpp"
+#include "common/camera/lens_projection.hpp"
 
 namespace limbcast::reconstructor {
-
-/// What turns a calibrated pair into one whose rows match: cv::stereoRectify (Bouguet), without
-/// black borders.
-Rectification compute_rectification(const StereoCalibration& calibration);
 
 /// A pair whose epipolar lines are the image rows, and both cameras' principal points the same.
 struct RectifiedPair {
@@ -17,8 +14,8 @@ struct RectifiedPair {
 
 /// Turns the images of a calibrated pair so that corresponding points stand in the same row.
 ///
-/// Takes the rectification of the calibration, or computes it (Bouguet's method,
-/// cv::stereoRectify). A pair that is rectified already is handed through without resampling.
+/// Takes the rectification of the calibration, or computes it (compute_rectification). A pair that
+/// is rectified already is handed through without resampling.
 class Rectifier {
  public:
   /// `image_scale` (0, 1]: the rectified images are this much smaller than the camera's.
@@ -34,14 +31,11 @@ class Rectifier {
   double baseline_m() const { return baseline_m_; }
 
  private:
-  struct Maps {
-    cv::Mat xy, fraction;  ///< as cv::remap takes them; empty: nothing to do
-  };
-  cv::Mat resample(const cv::Mat& image, const Maps& maps) const;
+  cv::Mat resample(const cv::Mat& image, const LensMaps& maps) const;
 
   PinholeCamera lens_left_, lens_right_, camera_;
   double baseline_m_ = 0.0;
-  Maps left_maps_, right_maps_;
+  LensMaps left_maps_, right_maps_;  ///< empty: nothing to do
 };
 
 }  // namespace limbcast::reconstructor

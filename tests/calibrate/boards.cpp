@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "common/camera/lens_projection.hpp"
 #include "common/camera/opencv_conversion.hpp"
 
 namespace limbcast::calibrate {
@@ -34,8 +35,7 @@ BoardPoints project(const Board& board, const BoardPose& pose, const LensCalibra
   std::vector<cv::Point3f> points;
   for (int id = 0; id < board.num_points(); ++id) points.push_back(board.point_m(id));
   std::vector<cv::Point2f> pixels;
-  cv::projectPoints(points, pose.rotation, pose.translation_m, camera_matrix(lens.camera),
-                    lens.distortion, pixels);
+  project_points(points, pose.rotation, pose.translation_m, lens, pixels);
   BoardPoints result;
   for (int id = 0; id < board.num_points(); ++id) {
     const cv::Point2f noise(static_cast<float>(random.gaussian(sigma_px)),
@@ -57,6 +57,14 @@ double first_point_squares(const Board& board) {
   return board.kind == BoardKind::kCircles ? 1.0 : 1.5;
 }
 
+/// Does the pixel show what is in front of the camera, as everything is that a board is seen in?
+bool is_before(const cv::Point2f& pixel, const LensCalibration& lens) {
+  constexpr double kNearly90Degrees = 1.5;
+  return lens.model == LensModel::kPinhole ||
+         std::hypot((pixel.x - lens.camera.cx) / lens.camera.fx,
+                    (pixel.y - lens.camera.cy) / lens.camera.fy) < kNearly90Degrees;
+}
+
 cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration& lens) {
   // Each pixel is the mean of 2 x 2 rays.
   constexpr int kRays = 2;
@@ -70,7 +78,7 @@ cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration&
                           (static_cast<float>(v) + 0.5F) / kRays - 0.5F);
   }
   std::vector<cv::Point2f> rays;
-  cv::undistortPoints(pixels, rays, camera_matrix(lens.camera), lens.distortion);
+  undistort_points(pixels, rays, lens);
   cv::Matx33d R;
   cv::Rodrigues(pose.rotation, R);
   // A point (x, y, 0) of the board is seen in the direction H (x, y, 1).
@@ -82,6 +90,11 @@ cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration&
   const double scale = kPixelsPerSquare / board.square_m;
   cv::Mat map(size, CV_32FC2);
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!is_before(pixels[i], lens)) {
+      map.at<cv::Vec2f>(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width) = {
+          -1e3F, -1e3F};
+      continue;
+    }
     const cv::Matx31d place = inverse * cv::Matx31d(rays[i].x, rays[i].y, 1.0);
     map.at<cv::Vec2f>(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width) = {
         static_cast<float>(first_px + scale * place(0) / place(2)),
@@ -93,6 +106,13 @@ cv::Mat render(const Board& board, const BoardPose& pose, const LensCalibration&
   cv::Mat image;
   cv::resize(fine, image, {}, 1.0 / kRays, 1.0 / kRays, cv::INTER_AREA);
   return image;
+}
+
+/// Do both cameras see all of the board, as detectors need it?
+bool is_whole(const Board& board, const BoardPose& pose, const StereoCalibration& cameras) {
+  const View view = project_board(board, pose, cameras, "");
+  return static_cast<int>(std::min(view.left.ids.size(), view.right.ids.size())) ==
+         board.num_points();
 }
 
 }  // namespace
@@ -107,6 +127,45 @@ StereoCalibration true_cameras() {
                   .toRotationMatrix();
   cameras.T = {-0.12, 0.0008, -0.0025};
   return cameras;
+}
+
+Board large_board() {
+  Board board;
+  board.square_m = 0.05;
+  return board;
+}
+
+StereoCalibration fisheye_cameras() {
+  StereoCalibration cameras = true_cameras();
+  cameras.left = {
+      {640, 480, 224.3, 223.8, 322.1, 241.3}, {-0.01, 0.03, -0.02, 0.004}, LensModel::kFisheye};
+  cameras.right = {
+      {640, 480, 225.6, 225.9, 317.8, 237.2}, {0.005, 0.02, -0.015, 0.003}, LensModel::kFisheye};
+  return cameras;
+}
+
+std::vector<BoardPose> poses_around(const Board& board) {
+  std::vector<BoardPose> poses;
+  int count = 0;
+  for (const double distance_squares : {9.0, 13.0}) {
+    for (const double updown : {-0.55, 0.0, 0.55}) {
+      for (const double sideways : {-0.85, -0.4, 0.0, 0.4, 0.85}) {
+        const double tilt = count % 2 == 0 ? 0.4 : -0.4;
+        const Eigen::AngleAxisd turn(Eigen::AngleAxisd(sideways, Eigen::Vector3d::UnitY()) *
+                                     Eigen::AngleAxisd(-updown, Eigen::Vector3d::UnitX()));
+        const Eigen::Vector3d middle_m =
+            distance_squares * board.square_m * (turn * Eigen::Vector3d::UnitZ());
+        const Eigen::AngleAxisd tilted(
+            turn * Eigen::AngleAxisd(tilt, count++ % 4 < 2 ? Eigen::Vector3d::UnitX()
+                                                           : Eigen::Vector3d::UnitY()));
+        const Eigen::Vector3d rotation = tilted.angle() * tilted.axis();
+        const BoardPose pose = pose_about_middle(board, {rotation.x(), rotation.y(), rotation.z()},
+                                                 {middle_m.x() + 0.06, middle_m.y(), middle_m.z()});
+        if (is_whole(board, pose, fisheye_cameras())) poses.push_back(pose);
+      }
+    }
+  }
+  return poses;
 }
 
 std::vector<BoardPose> varied_poses(const Board& board, int count) {

@@ -13,6 +13,11 @@ namespace limbcast::calibrate {
 /// A pair of VGA cameras with lens distortion, not parallel, 120 mm apart.
 StereoCalibration true_cameras();
 
+/// The same with fisheye lenses, 164 degrees across.
+StereoCalibration fisheye_cameras();
+/// Squares of 5 cm, which such lenses still see well far off their axes.
+Board large_board();
+
 /// p_camera = R * p_board + t, of the left camera.
 struct BoardPose {
   cv::Vec3d rotation;  ///< Rodrigues vector
@@ -23,6 +28,9 @@ struct BoardPose {
 std::vector<BoardPose> varied_poses(const Board& board, int count);
 /// Poses that leave nothing to add: all over both images, tilted either way, near and far.
 std::vector<BoardPose> thorough_poses(const Board& board);
+/// Poses all over the field of fisheye_cameras, tilted either way, near and far, in which both see
+/// the whole board.
+std::vector<BoardPose> poses_around(const Board& board);
 /// The places of varied_poses, but parallel to the image and all at one distance.
 std::vector<BoardPose> frontal_poses(const Board& board, int count);
 

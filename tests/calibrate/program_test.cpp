@@ -10,6 +10,7 @@
 #include "common/camera/calibration_reader.hpp"
 #include "common/camera/calibration_writer.hpp"
 #include "tests/calibrate/boards.hpp"
+#include "tests/calibrate/found_cameras.hpp"
 #include "tests/common/run_program.hpp"
 
 namespace limbcast::calibrate {
@@ -57,6 +58,11 @@ TEST(CalibrateProgram, CalibratesARealPairOfCameras) {
   EXPECT_FALSE(cv::imread(out / "report.png").empty());
 }
 
+std::string numbered(const std::string& stem, std::size_t number) {
+  const std::string digits = std::to_string(number);
+  return stem + std::string(4 - digits.size(), '0') + digits;
+}
+
 void write_rendered_pairs(const TemporaryFolder& folder) {
   const Board board;
   int number = 10;
@@ -94,6 +100,35 @@ TEST(CalibrateProgram, CalibratesRenderedCamerasAndNamesBadPairs) {
   EXPECT_NEAR(found.T.norm(), true_cameras().T.norm(), 0.005 * 0.12);
 }
 
+TEST(CalibrateProgram, CalibratesFisheyeLensesForTheStereoCamera) {
+  const TemporaryFolder folder;
+  const Board board = large_board();
+  const std::vector<BoardPose> poses = poses_around(board);
+  for (std::size_t i = 0; i < poses.size(); i += 2)
+    write_pair(folder, render_board(board, poses[i], fisheye_cameras(), numbered("p", i)));
+  const TemporaryFolder out;
+  const Outcome outcome =
+      run_program("limbcast-calibrate", {"--lens", "fisheye", "--square-mm", "50", "--source",
+                                         folder.path(), "--output", out / "calibration.yml"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const StereoCalibration found = read_stereo_calibration(out / "calibration.yml");
+  expect_found(found, fisheye_cameras());
+
+  const std::vector<std::string> source{"--source", folder.path(), "--calibration",
+                                        out / "calibration.yml"};
+  std::vector<std::string> check{"check", "--square-mm", "50"};
+  check.insert(check.end(), source.begin(), source.end());
+  const Outcome checked = run_program("limbcast-calibrate", check);
+  EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
+  std::vector<std::string> record{"--log", out / "in.log"};
+  record.insert(record.end(), source.begin(), source.end());
+  ASSERT_EQ(run_program("limbcast-stereo-camera", record).exit_code, 0);
+  ASSERT_EQ(run_program("limbcast-log", {"extract", out / "in.log", out / "shots"}).exit_code, 0);
+  const StereoCalibration sent = read_stereo_calibration(out / "shots/calibration.yml");
+  EXPECT_EQ(sent.left.model, LensModel::kFisheye);
+  EXPECT_EQ(sent.right.distortion, found.right.distortion);
+}
+
 /// Pairs as a video shows them: a board that is held still at one place after the other; the last
 /// picture is blurred by motion.
 std::vector<GreyPair> board_video(int places, int frames_still) {
@@ -114,11 +149,6 @@ void expect_true_cameras(const StereoCalibration& found) {
   EXPECT_NEAR(found.left.camera.fx, 531.2, 0.003 * 531.2);
   EXPECT_NEAR(found.right.camera.fx, 529.4, 0.003 * 529.4);
   EXPECT_NEAR(found.T.norm(), true_cameras().T.norm(), 0.005 * 0.12);
-}
-
-std::string numbered(const std::string& stem, std::size_t number) {
-  const std::string digits = std::to_string(number);
-  return stem + std::string(4 - digits.size(), '0') + digits;
 }
 
 /// Writes the folder's pairs to in.log.

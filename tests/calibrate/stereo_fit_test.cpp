@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/calibrate/boards.hpp"
+#include "tests/calibrate/found_cameras.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::calibrate {
@@ -15,18 +16,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
-
-const cv::Size kVga(640, 480);
-
-/// Focal length to 0.3 %, baseline to 0.5 %: what depth of a few per cent at 4 m needs.
-void expect_found(const StereoCalibration& found, const StereoCalibration& truth) {
-  EXPECT_NEAR(found.left.camera.fx, truth.left.camera.fx, 0.003 * truth.left.camera.fx);
-  EXPECT_NEAR(found.left.camera.fy, truth.left.camera.fy, 0.003 * truth.left.camera.fy);
-  EXPECT_NEAR(found.right.camera.fx, truth.right.camera.fx, 0.003 * truth.right.camera.fx);
-  EXPECT_NEAR(found.T.norm(), truth.T.norm(), 0.005 * truth.T.norm());
-  constexpr double kTenthOfDegree = 1.745e-3;
-  EXPECT_NEAR((found.R - truth.R).cwiseAbs().maxCoeff(), 0.0, 2.0 * kTenthOfDegree);
-}
 
 StereoFit fit_rendered(const Board& board, int count) {
   ViewCollector collector(board, false);
@@ -250,7 +239,7 @@ class Complete : public ::testing::Test {
     return project_boards(board_, poses, true_cameras());
   }
   bool complete_with(const std::vector<View>& views) const {
-    return complete(views, board_, kVga, params_);
+    return complete(views, board_, kVga, LensModel::kPinhole, params_);
   }
   /// Large, so that it stands far away: then both cameras see it at the image's edge too.
   Board board_ = [] {

@@ -84,5 +84,20 @@ TEST(DepthRegistration, HeedsBothLensesDistortion) {
   EXPECT_EQ(result(5, 7), 1500);
 }
 
+TEST(DepthRegistration, PutsWhatAFisheyeSeesWhereItIs) {
+  DepthCalibration calibration = side_by_side();
+  calibration.depth_camera->T.setZero();
+  LensCalibration& lens = calibration.depth_camera->lens;
+  lens.model = LensModel::kFisheye;
+  lens.distortion.assign(4, 0.0);
+  lens.camera.fx = lens.camera.fy = 30.0;
+  calibration.color.camera.fx = calibration.color.camera.fy = 20.0;
+  cv::Mat1w depth = empty_depth();
+  depth(24, 52) = 1000;  // 20 px / 30 px = 0.667 rad to the right of the axis
+  const cv::Mat1w result = DepthRegistration(calibration).registered(depth);
+  const int column = static_cast<int>(std::lround(32.0 + 20.0 * std::tan(20.0 / 30.0)));
+  EXPECT_EQ(result(24, column), 1000);
+}
+
 }  // namespace
 }  // namespace limbcast::depth_camera

@@ -38,7 +38,8 @@ TEST(DepthToCloud, RemovesTheSkirtThatASmoothingSensorDrawsFromABodyToTheWall) {
   };
   const Cloud cloud = cloud_of(depth_at);
   const auto is_hole = [&cloud](int u) {
-    return cloud.is_hole(static_cast<std::size_t>(kHeight / 2 * kWidth + u));
+    return cloud.is_hole(static_cast<std::size_t>(kHeight / 2) * kWidth +
+                         static_cast<std::size_t>(u));
   };
   EXPECT_FALSE(is_hole(kSkirtBegin)) << "the body's edge";
   EXPECT_TRUE(is_hole((kSkirtBegin + kSkirtEnd) / 2));
@@ -61,6 +62,47 @@ TEST(DepthToCloud, KeepsWallsAndFloorsThatAreSeenAtAFlatAngle) {
 TEST(DepthToCloud, KeepsHolesAndWhatStandsBesideThem) {
   const Cloud cloud = cloud_of([](int u, int /*v*/) { return u < 80 ? 2.0 : 0.0; });
   EXPECT_EQ(holes(cloud), kHeight * 80);
+}
+
+TEST(DepthToCloud, TakesTheNearestPixelOfADistortedImage) {
+  const double k1 = -0.2;
+  DepthCalibration calibration;
+  calibration.color = {{kWidth, kHeight, kFocalPx, kFocalPx, kWidth / 2.0, kHeight / 2.0},
+                       {k1, 0.0, 0.0, 0.0}};
+  // Each depth tells its column.
+  cv::Mat1w depth_mm(kHeight, kWidth);
+  for (int u = 0; u < kWidth; ++u) depth_mm.col(u) = 1000 + u;
+  const Cloud cloud = depth_to_cloud(depth_mm, {}, calibration);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const double x = (u - kWidth / 2.0) / kFocalPx;
+      const double y = (v - kHeight / 2.0) / kFocalPx;
+      const double seen_at = kWidth / 2.0 + kFocalPx * x * (1.0 + k1 * (x * x + y * y));
+      const std::size_t i = static_cast<std::size_t>(v) * kWidth + static_cast<std::size_t>(u);
+      // OpenCV's maps tell 1/32 px.
+      EXPECT_NEAR(1000.0 * cloud.points_m[i].z() - 1000.0, seen_at, 0.5 + 1.0 / 32.0);
+    }
+  }
+}
+
+TEST(DepthToCloud, PutsWhatAFisheyeSeesWhereItIs) {
+  DepthCalibration calibration;
+  calibration.color = {
+      {kWidth, kHeight, 60.0, 60.0, 80.0, 60.0}, {0.0, 0.0, 0.0, 0.0}, LensModel::kFisheye};
+  // A post, seen 0.75 rad to the right of the middle.
+  cv::Mat1w depth_mm(kHeight, kWidth, std::uint16_t{0});
+  depth_mm.colRange(123, 128) = 1000;
+  const Cloud cloud = depth_to_cloud(depth_mm, {}, calibration);
+  double sum_x_m = 0.0;
+  int count = 0;
+  for (int u = 0; u < kWidth; ++u) {
+    const std::size_t i = 60UL * kWidth + static_cast<std::size_t>(u);
+    if (cloud.is_hole(i)) continue;
+    sum_x_m += cloud.points_m[i].x();
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  EXPECT_NEAR(sum_x_m / count, std::tan(0.75), 0.5 / 60.0);  // half a pixel
 }
 
 }  // namespace

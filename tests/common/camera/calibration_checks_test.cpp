@@ -33,14 +33,47 @@ TEST_F(StereoCalibrationCheck, TellsThatRosCamerasWereNotCalibratedAsAPair) {
               HasSubstr("P[3] is 0"));
 }
 
-TEST_F(StereoCalibrationCheck, RefusesAFisheyeModel) {
+TEST_F(StereoCalibrationCheck, RefusesAModelThatItDoesNotKnow) {
+  EXPECT_THAT(error_with("distortion_model", "omnidir"),
+              HasSubstr("stereo.yml: 'distortion_model' is 'omnidir'; calibrate with plumb_bob, "
+                        "rational_polynomial or equidistant"));
+}
+
+TEST_F(StereoCalibrationCheck, RefusesAFisheyeBesideAnOrdinaryLens) {
   Entries left = ros_entries("0");
   left["distortion_model"] = "equidistant";
+  left["distortion_coefficients"] = ros_matrix(1, 4, "0.01, 0.02, -0.01, 0.002");
   folder_.write("left.yaml", yaml(left, ""));
   folder_.write("right.yaml", yaml(ros_entries("-48"), ""));
 
   EXPECT_THAT(error_of<InputError>([&] { read_stereo_calibration(folder_.path()); }),
-              HasSubstr("'distortion_model' is 'equidistant'"));
+              AllOf(HasSubstr("right.yaml: 'distortion_model' differs from "),
+                    HasSubstr("left.yaml"), HasSubstr("with the same model")));
+}
+
+TEST_F(StereoCalibrationCheck, RefusesAFisheyeOfOtherThanFourCoefficients) {
+  const std::string kAdvice = "; of a fisheye (equidistant) must be 4: k1 k2 k3 k4";
+  EXPECT_THAT(error_with("distortion_model", "equidistant"),
+              HasSubstr("stereo.yml: 'D1' has 5 coefficients" + kAdvice));
+  Entries entries = fisheye_entries();
+  entries["D2"] = matrix(1, 0, "");
+  EXPECT_THAT(error_of_file(yaml(entries)), HasSubstr("'D2' has 0 coefficients" + kAdvice));
+  entries.erase("D2");
+  EXPECT_THAT(error_of_file(yaml(entries)), HasSubstr("'D2'"));
+}
+
+TEST_F(StereoCalibrationCheck, RefusesAFisheyeThatFoldsTheImage) {
+  Entries entries = fisheye_entries();
+  // a (1 - a^6 / 7) is greatest at 1 rad: 6 / 7 of 224 px.
+  entries["D1"] = matrix(1, 4, "0., 0., -0.14285714286, 0.");
+  EXPECT_THAT(error_of_file(yaml(entries)),
+              HasSubstr("'D1' folds the image: 192 px from its middle it ends"));
+}
+
+TEST_F(StereoCalibrationCheck, AcceptsAFisheyeWhoseImageReachesBeyond90Degrees) {
+  Entries entries = fisheye_entries();
+  entries["K1"] = entries["K2"] = matrix(3, 3, "180., 0., 320., 0., 180., 240., 0., 0., 1.");
+  EXPECT_NO_THROW(read_stereo_calibration(folder_.write("wide.yml", yaml(entries))));
 }
 
 TEST_F(StereoCalibrationCheck, TellsThatCamerasAreSwapped) {

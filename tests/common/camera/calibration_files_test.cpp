@@ -16,6 +16,33 @@ namespace {
 using namespace test;
 using ::testing::HasSubstr;
 
+TEST_F(StereoCalibrationFile, TellsFisheyeLensesByTheModelThatItNames) {
+  const StereoCalibration ordinary =
+      read_stereo_calibration(folder_.write("stereo.yml", yaml(opencv_entries())));
+  EXPECT_EQ(ordinary.left.model, LensModel::kPinhole);
+
+  const StereoCalibration fisheye =
+      read_stereo_calibration(folder_.write("fisheye.yml", yaml(fisheye_entries())));
+  EXPECT_EQ(fisheye.left.model, LensModel::kFisheye);
+  EXPECT_EQ(fisheye.right.model, LensModel::kFisheye);
+  EXPECT_THAT(fisheye.right.distortion, ::testing::ElementsAre(-0.01, 0.03, -0.02, 0.004));
+}
+
+TEST_F(StereoCalibrationFile, TellsFisheyeLensesOfRosByEitherNameThatItsCalibratorsWrite) {
+  for (const char* model : {"equidistant", "fisheye"}) {
+    for (const auto& [name, tx] : {std::pair("left.yaml", "0"), {"right.yaml", "-48"}}) {
+      Entries entries = ros_entries(tx);
+      entries["distortion_model"] = model;
+      entries["distortion_coefficients"] = ros_matrix(1, 4, "-0.01, 0.03, -0.02, 0.004");
+      folder_.write(name, yaml(entries, ""));
+    }
+    const StereoCalibration calibration = read_stereo_calibration(folder_.path());
+    EXPECT_EQ(calibration.left.model, LensModel::kFisheye);
+    EXPECT_EQ(calibration.right.model, LensModel::kFisheye);
+    EXPECT_EQ(calibration.left.distortion.size(), 4U);
+  }
+}
+
 TEST_F(StereoCalibrationFile, GivesEveryValueOfAnOpenCvFile) {
   const StereoCalibration calibration =
       read_stereo_calibration(folder_.write("stereo.yml", yaml(opencv_entries())));
@@ -125,6 +152,14 @@ TEST_F(DepthCalibrationFile, GivesCameraAndScale) {
 TEST_F(DepthCalibrationFile, MeansMillimetresWhereNoScaleIsTold) {
   entries_.erase("depth_scale");
   EXPECT_EQ(read().depth_scale_m, 0.001);
+}
+
+TEST_F(DepthCalibrationFile, TellsAFisheyeAsOpenCvsCalibrationProgramDoes) {
+  entries_["distortion_coefficients"] = matrix(4, 1, "0., 0., 0., 0.");
+  entries_["fisheye_model"] = "0";
+  EXPECT_EQ(read().color.model, LensModel::kPinhole);
+  entries_["fisheye_model"] = "1";
+  EXPECT_EQ(read().color.model, LensModel::kFisheye);
 }
 
 TEST_F(DepthCalibrationFile, RefusesAScaleThatCannotBe) {

@@ -36,6 +36,15 @@ inline std::string yaml(const Entries& entries, const std::string& header = "%YA
   return text;
 }
 
+/// 164 degrees across the image.
+inline Entries fisheye_entries() {
+  Entries entries = opencv_entries();
+  entries["distortion_model"] = "equidistant";
+  entries["K1"] = entries["K2"] = matrix(3, 3, "224., 0., 320., 0., 224., 240., 0., 0., 1.");
+  entries["D1"] = entries["D2"] = matrix(1, 4, "-0.01, 0.03, -0.02, 0.004");
+  return entries;
+}
+
 inline std::string ros_matrix(int rows, int cols, const std::string& data) {
   return "\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(cols) + "\n  data: [" +
          data + "]";

@@ -50,6 +50,23 @@ TEST(WrittenStereoCalibration, IsReadAsItWas) {
   EXPECT_DOUBLE_EQ(point.z() / point.w(), 5.0);
 }
 
+TEST(WrittenStereoCalibration, KeepsFisheyeLenses) {
+  StereoCalibration written;
+  written.left = {
+      {640, 480, 224.0, 225.0, 320.0, 240.0}, {-0.01, 0.03, -0.02, 0.004}, LensModel::kFisheye};
+  written.right = {
+      {640, 480, 223.0, 224.0, 321.0, 241.0}, {-0.02, 0.02, -0.01, 0.0}, LensModel::kFisheye};
+  written.T = {-0.12, 0.001, -0.002};
+  const TemporaryFolder folder;
+  write_stereo_calibration(folder / "c.yml", written);
+
+  const StereoCalibration read = read_stereo_calibration(folder / "c.yml");
+  EXPECT_EQ(read.left.model, LensModel::kFisheye);
+  EXPECT_EQ(read.right.model, LensModel::kFisheye);
+  EXPECT_EQ(read.left.distortion, written.left.distortion);
+  EXPECT_EQ(read.right.distortion, written.right.distortion);
+}
+
 const DepthCalibration kWritten{{{640, 480, 500.0, 500.0, 320.0, 240.0}, {}}, {}, 0.001, {}};
 
 TEST(WrittenDepthCalibration, KeepsADepthCameraOfItsOwn) {
@@ -68,6 +85,26 @@ TEST(WrittenDepthCalibration, KeepsADepthCameraOfItsOwn) {
   EXPECT_EQ(read.depth_camera->lens.distortion, camera.lens.distortion);
   EXPECT_TRUE(read.depth_camera->R.isApprox(camera.R));
   EXPECT_EQ(read.depth_camera->T, camera.T);
+}
+
+TEST(WrittenDepthCalibration, KeepsWhichOfItsLensesIsAFisheye) {
+  DepthCalibration written = kWritten;
+  DepthCamera& camera = written.depth_camera.emplace();
+  camera.lens = {
+      {320, 240, 112.0, 112.0, 160.0, 120.0}, {-0.01, 0.03, -0.02, 0.004}, LensModel::kFisheye};
+  camera.T = {0.015, 0.001, -0.002};
+  const TemporaryFolder folder;
+  write_depth_calibration(folder / "depth.yml", written);
+  const DepthCalibration depth = read_depth_calibration(folder / "depth.yml");
+  EXPECT_EQ(depth.color.model, LensModel::kPinhole);
+  EXPECT_EQ(depth.depth_camera->lens.model, LensModel::kFisheye);
+  EXPECT_EQ(depth.depth_camera->lens.distortion, camera.lens.distortion);
+
+  std::swap(written.color, camera.lens);
+  write_depth_calibration(folder / "color.yml", written);
+  const DepthCalibration color = read_depth_calibration(folder / "color.yml");
+  EXPECT_EQ(color.color.model, LensModel::kFisheye);
+  EXPECT_EQ(color.depth_camera->lens.model, LensModel::kPinhole);
 }
 
 TEST(WrittenDepthCalibration, ReachesTheFileThatALinkLeadsTo) {

@@ -33,5 +33,23 @@ TEST(CalibrationCodec, CarriesRectificationAndRejectsWhatIsNoRotation) {
   EXPECT_THROW(from_message(bad), MessageError);
 }
 
+TEST(CalibrationCodec, CarriesFisheyeLensesByTheNumberOfTheirCoefficients) {
+  StereoCalibration calibration;
+  calibration.left = {
+      {640, 480, 224.0, 225.0, 320.0, 240.0}, {-0.01, 0.03, -0.02, 0.004}, LensModel::kFisheye};
+  calibration.right = calibration.left;
+  calibration.right.distortion[3] = 0.0;
+  const stereo_calibration_t message = to_message(calibration, 7, "front");
+  EXPECT_EQ(message.left.num_distortion, lens_t::NUM_FISHEYE);
+  EXPECT_EQ(message.left.distortion, (std::vector<double>{-0.01, 0.03, -0.02, 0.004, 0.0, 0.0}));
+  const StereoCalibration back = from_message(message);
+  EXPECT_EQ(back.left.model, LensModel::kFisheye);
+  EXPECT_EQ(back.left.distortion, calibration.left.distortion);
+  EXPECT_EQ(back.right.distortion, calibration.right.distortion);
+
+  calibration.left.model = LensModel::kPinhole;
+  EXPECT_EQ(from_message(to_message(calibration.left)).model, LensModel::kPinhole);
+}
+
 }  // namespace
 }  // namespace limbcast::lcm_io

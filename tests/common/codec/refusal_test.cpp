@@ -147,6 +147,11 @@ TEST(CodecRefusals, NameWhatIsWrongWithAPersonOfAnImage) {
        {[=](Message& m) { joint(m).spread_m = 1e5F; }, range}});
 }
 
+void make_fisheye(lens_t& lens, double k6) {
+  lens.num_distortion = lens_t::NUM_FISHEYE;
+  lens.distortion = {0.01, 0.02, -0.01, 0.002, 0.0, k6};
+}
+
 TEST(CodecRefusals, NameWhatIsWrongWithACalibration) {
   using Message = stereo_calibration_t;
   const std::string size = "image size", focal = "focal length or principal point",
@@ -166,6 +171,8 @@ TEST(CodecRefusals, NameWhatIsWrongWithACalibration) {
        {[](Message& m) { m.left.fy = 1e9; }, focal},
        {[](Message& m) { m.left.num_distortion = 3; }, "number of distortion coefficients"},
        {[](Message& m) { m.left.distortion[1] = kNaN; }, "distortion coefficient is not finite"},
+       {[](Message& m) { make_fisheye(m.left, 0.1); }, "k5 and k6 of a fisheye lens must be 0"},
+       {[](Message& m) { make_fisheye(m.left, 0.0); }, "one lens is a fisheye, the other is not"},
        {[](Message& m) { m.R[0] = 2.0; }, rotation},
        // Mirrored: orthogonal, but no rotation.
        {[](Message& m) { m.R2[2] = -1.0; }, rotation},

@@ -1,0 +1,108 @@
+#include "modules/calibrate/fisheye_fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+#include "common/camera/opencv_conversion.hpp"
+#include "modules/calibrate/coverage.hpp"
+#include "modules/calibrate/stereo_fit.hpp"
+#include "tests/calibrate/boards.hpp"
+#include "tests/calibrate/found_cameras.hpp"
+
+namespace limbcast::calibrate {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<View> projected_views(const Board& board) {
+  return project_boards(board, poses_around(board), fisheye_cameras());
+}
+
+StereoFit fit(const std::vector<View>& views) {
+  return fit_stereo(views, large_board(), kVga, LensModel::kFisheye);
+}
+
+TEST(FisheyeFit, FindsTheCamerasFromPicturesOfAChessboard) {
+  const Board board = large_board();
+  ViewCollector collector(board, false);
+  const std::vector<BoardPose> poses = poses_around(board);
+  for (std::size_t i = 0; i < poses.size(); i += 2)
+    collector.add(render_board(board, poses[i], fisheye_cameras(),
+                               "view_" + std::to_string(collector.views().size())));
+  ASSERT_GE(collector.views().size(), 10U);
+  const StereoFit found = fit(collector.views());
+  expect_found(found.calibration, fisheye_cameras());
+  EXPECT_LT(found.reprojection_px, 0.1);
+  EXPECT_LT(found.epipolar_px, 0.15);  // at their borders rectified images are stretched
+  EXPECT_GT(found.left.focal_px, 0.0);
+  EXPECT_LT(found.left.focal_px, 1.0);
+  const Verdict verdict = judge(found, least_coverage(found.views, kVga));
+  EXPECT_THAT(verdict.faults, IsEmpty());
+  EXPECT_THAT(verdict.warnings, IsEmpty());
+}
+
+TEST(FisheyeFit, FindsTheCoefficientsAndHowTheBoardStood) {
+  const StereoFit found = fit(projected_views(large_board()));
+  expect_found(found.calibration, fisheye_cameras());
+  // The polynomial, at 1 rad, to a pixel in a hundred.
+  const auto sum = [](const std::vector<double>& k) { return k[0] + k[1] + k[2] + k[3]; };
+  EXPECT_NEAR(sum(found.calibration.left.distortion), 0.004, 0.002);
+  EXPECT_NEAR(sum(found.calibration.right.distortion), 0.013, 0.002);
+  // 9 squares of 5 cm from a place between the cameras, or 13.
+  for (const ViewFit& view : found.figures) {
+    const double nearest_m = view.distance_m < 0.55 ? 0.45 : 0.65;
+    EXPECT_NEAR(view.distance_m, nearest_m, 0.06);
+  }
+}
+
+TEST(FisheyeFit, LeavesOutAViewWhoseBoardMovedBetweenTheImages) {
+  std::vector<View> views = projected_views(large_board());
+  for (cv::Point2f& pixel : views[5].right.pixels) pixel += {4.0F, 2.0F};
+  const StereoFit found = fit(views);
+  ASSERT_EQ(found.outliers.size(), 1U);
+  EXPECT_EQ(found.outliers[0].name, views[5].name);
+  EXPECT_THAT(found.outliers[0].reason.text, HasSubstr("the board moved between the two images"));
+  expect_found(found.calibration, fisheye_cameras());
+}
+
+TEST(FisheyeFit, LeavesTermsOutWhereTheyWouldFoldTheImageBeyondTheBoards) {
+  // All near the middle, and with the noise of a poor camera: k3 and k4 are a guess.
+  const Board board = large_board();
+  std::vector<View> views;
+  for (const BoardPose& pose : varied_poses(board, 12))
+    views.push_back(
+        project_board(board, pose, fisheye_cameras(), "view_" + std::to_string(views.size()), 0.3));
+  const StereoFit found = fit(views);
+  EXPECT_EQ(found.calibration.left.distortion[2], 0.0);
+  EXPECT_EQ(found.calibration.left.distortion[3], 0.0);
+  EXPECT_THAT(
+      judge(found, 0.8).warnings,
+      Contains(HasSubstr("the distortion has no k3 and k4: with them the image would fold")));
+}
+
+TEST(FisheyePose, IsFoundFarOffTheAxis) {
+  const Board board = large_board();
+  const LensCalibration lens = fisheye_cameras().left;
+  const std::vector<BoardPose> poses = poses_around(board);
+  for (const BoardPose& pose : {poses[0], poses[7], poses[14]}) {
+    std::vector<cv::Point3d> points;
+    for (int id = 0; id < board.num_points(); ++id)
+      points.emplace_back(point_in_squares(board, id));
+    std::vector<cv::Point2d> pixels;
+    const cv::Vec3d translation = pose.translation_m / board.square_m;
+    cv::fisheye::projectPoints(points, pixels, pose.rotation, translation,
+                               camera_matrix(lens.camera), lens.distortion);
+    const Pose found = fisheye_pose(points, pixels, lens, {}, {});
+    EXPECT_LT(cv::norm(found.translation, translation), 1e-4);
+    EXPECT_LT(cv::norm(found.rotation, pose.rotation), 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace limbcast::calibrate
