@@ -38,7 +38,7 @@ struct AskedHeads {
   std::int16_t first_label = 0;             ///< that of the first head; the others' follow
   BodyLimits limits;
   /// Other limits that suffice where the depths around a head nearly tell it.
-  std::optional<BodyLimits> limits_of_likely;
+  std::optional<BodyLimits> limits_of_likely = std::nullopt;
 };
 
 /// Those whose whole bodies it takes for people.
