@@ -158,7 +158,8 @@ struct OverlookedParams {
   /// the head's place is a guess yet.
   float min_person_odds = 4.0F, guess_costs_odds = 3.0F;
   /// A head that the depths around it nearly tell (log odds) needs less, where the network marks it
-  /// so near [m].
+  /// so near [m]. A man before a wall has -1.5 to 0, 3.0 to 4.0 and 0.05 m in six of eight pictures
+  /// of a real depth camera; of the other candidates there none has over -2.
   float min_likely_head_odds = -2.0F, min_likely_person_odds = 2.5F, max_likely_error_m = 0.1F;
   /// Log odds of such a head: sure, as by `HiddenHeadParams::place_odds`.
   float head_odds = 3.0F;
