@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "modules/pose_fitter/refined/confidence/assessment.hpp"
 #include "modules/pose_fitter/refined/confidence/confidence.hpp"
 #include "tests/pose_fitter/refined/refined_body.hpp"
@@ -21,13 +23,15 @@ FittedBody standing_person() {
 
 /// The same with a head so doubtful, a posture so odd, joints so unsure and seen so poorly that the
 /// confidence lies between `least` and `most`.
-FittedBody doubtful_person(Real least, Real most) {
+FittedBody doubtful_person(
+    Real least, Real most, const std::function<void(FittedBody&)>& change = [](FittedBody&) {}) {
   FittedBody fitted = standing_person();
   const auto sigma_m = fitted.evidence.sigma_m;
   for (const Real unsure : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}) {
     fitted.evidence.images.back().person_score = 1.0 / unsure;
     fitted.evidence.images.back().visibility.fill(1.0 / unsure);
     for (int i = 0; i < kPointCount; ++i) fitted.evidence.sigma_m[i] = unsure * sigma_m[i];
+    change(fitted);
     for (const Real prior_cost : {10.0, 20.0, 30.0, 50.0, 80.0}) {
       fitted.evidence.prior_cost = prior_cost;
       for (fitted.evidence.head_odds = 3.0; fitted.evidence.head_odds > -5.0;
@@ -113,6 +117,16 @@ TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
   const auto told = assess(sure);
   ASSERT_TRUE(told);
   EXPECT_FALSE(told->pose[Joint::kHead].valid);
+}
+
+TEST(PersonConfidence, MustBeHigherOfSomebodyWhoseHeadWouldBeSeenAndIsNotTold) {
+  // Of those whose head's spread leaves this much.
+  FittedBody fitted =
+      doubtful_person(0.76, 0.89, [](FittedBody& body) { body.evidence.sigma_m[kHead] = 10.0; });
+  fitted.observation.noise = kOfACamera;
+  EXPECT_FALSE(told_alone(fitted));
+  fitted.observation.origin_v = -fitted.observation.full_height;  // the head is above the image
+  EXPECT_TRUE(told_alone(fitted));
 }
 
 TEST(PersonConfidence, FallsWithADoubtfulHeadAndAnOddPosture) {
