@@ -1,6 +1,5 @@
 #include "common/cloud/ground_plane.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "common/formatted.hpp"
+#include "common/spread.hpp"
 
 namespace limbcast {
 namespace {
@@ -130,27 +130,21 @@ struct Refined {
   double extent_m;
 };
 std::optional<Refined> refine(const Sample& sample, const Plane& plane, float inlier_m) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int count = 0;
+  Spread spread;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const Eigen::Vector3f point = sample.point(i);
     if (std::abs(plane.down.dot(point) - plane.height_m) >
         inlier_m + sample.noise[i] * plane.height_m)
       continue;
-    const Eigen::Vector3d p = point.cast<double>();
-    sum += p;
-    squares += p * p.transpose();
-    ++count;
+    spread.add(point.cast<double>());
   }
-  if (count < 10) return std::nullopt;
-  const Eigen::Vector3d mean = sum / count;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / count -
-                                                              mean * mean.transpose());
-  Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+  constexpr double kLeastPoints = 10.0;
+  if (spread.weight() < kLeastPoints) return std::nullopt;
+  const auto axes = spread.principal_axes();
+  Eigen::Vector3f normal = axes.eigenvectors().col(0).cast<float>();
   if (normal.dot(plane.down) < 0.0F) normal = -normal;
-  return Refined{{normal, normal.dot(mean.cast<float>())},
-                 std::sqrt(std::max(0.0, solver.eigenvalues()[1]))};
+  return Refined{{normal, normal.dot(spread.mean().cast<float>())},
+                 std::sqrt(std::max(0.0, axes.eigenvalues()[1]))};
 }
 
 /// 0.5 where a measured figure only just reaches its limit, towards 1 the farther it lies beyond.

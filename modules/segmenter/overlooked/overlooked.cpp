@@ -84,15 +84,15 @@ std::vector<HeadCandidate> heads_of_people(const Scene& scene, AskedHeads asked,
     const LabelledPerson body{asked.labels, label,
                               scene.lattice.frame.to_sensor(heads[k].center_m)};
     const auto picture = draw_depths(scene, body, params.depth_pose.picture);
-    const auto meets = [&](const BodyLimits& limits) {
-      const auto pose =
-          picture ? network.see_person(*picture, limits.min_person_odds) : std::nullopt;
-      return pose &&
-             (pose->places_m[index(Joint::kHead)] - body.head_m).norm() < limits.max_head_error_m;
-    };
     const bool is_likely =
         asked.limits_of_likely && heads[k].odds >= params.overlooked.min_likely_head_odds;
-    heads[k].told_by_body = meets(asked.limits) || (is_likely && meets(*asked.limits_of_likely));
+    const BodyLimits& lowest = is_likely ? *asked.limits_of_likely : asked.limits;
+    const auto pose = picture ? network.see_person(*picture, lowest.min_person_odds) : std::nullopt;
+    const auto meets = [&](const BodyLimits& limits) {
+      return log_odds(pose->person_score) >= limits.min_person_odds &&
+             (pose->places_m[index(Joint::kHead)] - body.head_m).norm() < limits.max_head_error_m;
+    };
+    heads[k].told_by_body = pose && (meets(asked.limits) || meets(lowest));
   });
   heads.erase(std::remove_if(heads.begin(), heads.end(),
                              [](const HeadCandidate& head) { return !head.told_by_body; }),

@@ -70,6 +70,7 @@ OverlookedBodies find_overlooked_bodies(const Scene& scene, const Surfaces& surf
     const Eigen::Vector3f guess_m = scene.lattice.frame.to_sensor(bodies[k].head.center_m);
     heads_m[k] = see_head(scene, {labels, label_of(k), guess_m}, judges);
   });
+  const HeadView view(scene.lattice, people, judges.params.hidden_heads);
   OverlookedBodies seen;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!heads_m[k]) continue;
@@ -78,9 +79,7 @@ OverlookedBodies find_overlooked_bodies(const Scene& scene, const Surfaces& surf
       head->odds = judges.params.overlooked.head_odds;
       head->told_by_body = true;
       seen.heads.push_back(*head);
-    } else if (scene.cloud.organized() &&
-               HeadView(scene.lattice, people, judges.params.hidden_heads)
-                   .hides_head(*heads_m[k])) {
+    } else if (scene.cloud.organized() && view.hides_head(*heads_m[k])) {
       bodies[k].head.center_m = *heads_m[k];
       bodies[k].head.surface_m = head_surface(scene.lattice, *heads_m[k]);
       seen.headless.push_back(std::move(bodies[k]));

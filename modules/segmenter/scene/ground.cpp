@@ -1,11 +1,12 @@
 #include "modules/segmenter/scene/ground.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "common/spread.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -89,23 +90,14 @@ bool refit(const std::vector<Eigen::Vector3f>& points, float band_m, Ground& gro
 
 /// How far (standard deviation) the points on the plane spread along it, in the narrower
 /// direction [m].
-float narrower_extent_m(const std::vector<Eigen::Vector3f>& points, const Ground& ground,
-                        float band_m) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int count = 0;
+double narrower_extent_m(const std::vector<Eigen::Vector3f>& points, const Ground& ground,
+                         float band_m) {
+  Spread spread;
   for (const Eigen::Vector3f& point : points) {
-    if (std::abs(ground.height_m - ground.down.dot(point)) > band_m) continue;
-    const Eigen::Vector3d p = point.cast<double>();
-    sum += p;
-    squares += p * p.transpose();
-    ++count;
+    if (std::abs(ground.height_m - ground.down.dot(point)) <= band_m)
+      spread.add(point.cast<double>());
   }
-  if (count == 0) return 0.0F;
-  const Eigen::Vector3d mean = sum / count;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      squares / count - mean * mean.transpose(), Eigen::EigenvaluesOnly);
-  return static_cast<float>(std::sqrt(std::max(0.0, solver.eigenvalues()[1])));
+  return spread.extent()[1];
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include "modules/pose_fitter/refined/confidence/person_evidence.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "common/spread.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
@@ -134,30 +135,6 @@ void look_around_cone(int c, const Cones& cones, const Observation& observation,
     }
   }
 }
-
-/// Mean and covariance of weighted points.
-class Spread {
- public:
-  void add(const Vec3& point, Real weight) {
-    weight_ += weight;
-    sum_ += weight * point;
-    squares_ += weight * point * point.transpose();
-  }
-
-  /// Standard deviations along the principal axes, smallest first.
-  Vec3 extent() const {
-    if (weight_ <= 0.0) return Vec3::Zero();
-    const Vec3 mean = sum_ / weight_;
-    const Mat3 covariance = squares_ / weight_ - mean * mean.transpose();
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(covariance, Eigen::EigenvaluesOnly);
-    return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  }
-
- private:
-  Real weight_ = 0.0;
-  Vec3 sum_ = Vec3::Zero();
-  Mat3 squares_ = Mat3::Zero();
-};
 
 bool of_trunk(Region region) {
   return region == Region::kShoulders || region == Region::kChest || region == Region::kBelly;
