@@ -8,6 +8,7 @@
 
 #include "common/formatted.hpp"
 #include "common/joined.hpp"
+#include "modules/calibrate/verdict.hpp"
 
 namespace limbcast::calibrate {
 namespace {

@@ -14,6 +14,7 @@
 #include "modules/calibrate/coverage.hpp"
 #include "modules/calibrate/pair_input.hpp"
 #include "modules/calibrate/report.hpp"
+#include "modules/calibrate/verdict.hpp"
 
 namespace limbcast::calibrate {
 namespace {

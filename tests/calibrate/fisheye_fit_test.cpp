@@ -10,6 +10,7 @@
 #include "common/camera/opencv_conversion.hpp"
 #include "modules/calibrate/coverage.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
+#include "modules/calibrate/verdict.hpp"
 #include "tests/calibrate/boards.hpp"
 #include "tests/calibrate/found_cameras.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "modules/calibrate/verdict.hpp"
 #include "tests/calibrate/boards.hpp"
 #include "tests/calibrate/found_cameras.hpp"
 #include "tests/support/temporary_folder.hpp"
