@@ -15,6 +15,9 @@ inline constexpr int kMaxImageSide = 8192;
 /// Rounding to 4 digits, as some tools write, keeps a rotation within this of orthonormal.
 inline constexpr double kRotationTolerance = 1e-3;
 
+/// A rectified camera may show more or less than the lens does, by no more than so many times.
+inline constexpr double kLargestRectifiedZoom = 10.0;
+
 /// How far a matrix is from a rotation: largest coefficient of R R^T - 1; infinite for a mirror.
 inline double deviation_from_rotation(const Eigen::Matrix3d& R) {
   if (R.determinant() < 0.0) return std::numeric_limits<double>::infinity();

@@ -19,8 +19,6 @@ constexpr double kSmallestBaseline_m = 0.002;
 constexpr double kLargestTurn_deg = 60.0;
 /// Lenses of a pair are alike; more is a wrong unit or another camera's calibration.
 constexpr double kLargestFocalRatio = 2.0;
-/// A rectified camera may show more or less than the lens does, by no more than so many times.
-constexpr double kLargestRectifiedZoom = 10.0;
 /// Rounding of a camera matrix [share of the focal length].
 constexpr double kMatrixTolerance = 1e-3;
 /// Rows of a rectified pair are the same to less than a matcher can tell [px].

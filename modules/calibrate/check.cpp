@@ -86,11 +86,11 @@ std::vector<std::string> CalibrationCheck::faults() const {
         formatted("only %zu matched points, %d are needed: show a board or a scene with texture",
                   result_.row_differences_px.size(), params_.min_points)};
   std::vector<std::string> faults;
-  if (result_.median_epipolar_px() > params_.max_epipolar_px)
+  if (!(result_.median_epipolar_px() <= params_.max_epipolar_px))
     faults.push_back(formatted("the median epipolar error is %.2f px (limit %.2f); calibrate again",
                                result_.median_epipolar_px(), params_.max_epipolar_px));
   const std::optional<double> length_error = result_.median_length_error();
-  if (length_error && std::abs(*length_error) > params_.max_length_error)
+  if (length_error && !(std::abs(*length_error) <= params_.max_length_error))
     faults.push_back(
         formatted("lengths on the board are off by %+.1f %% (limit %.0f %%); is --square-mm "
                   "right? Else calibrate again",

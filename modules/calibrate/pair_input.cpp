@@ -16,6 +16,7 @@
 #include "common/sources/log_playback.hpp"
 #include "common/sources/source_process.hpp"
 #include "modules/calibrate/log_messages.hpp"
+#include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
 namespace {
@@ -108,6 +109,16 @@ void check_exists(const std::string& source) {
     throw InputError(source + ": does not exist; give a folder, log, video or camera to --source");
 }
 
+/// Before anything is measured by it.
+StereoCalibration checked(const StereoCalibration& calibration, const std::string& file) {
+  try {
+    const reconstructor::Rectifier rectifier(calibration);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file + ": " + error.what());
+  }
+  return calibration;
+}
+
 }  // namespace
 
 void declare_source(config::Section& section, SourceOptions& options) {
@@ -176,8 +187,8 @@ void check_sizes(const GreyPair& pair, const StereoCalibration& calibration) {
 }
 
 StereoCalibration find_calibration(const std::string& path, const std::string& source) {
-  if (!path.empty()) return read_stereo_calibration(path);
-  if (is_lcm_log(source)) return calibration_in(source);
+  if (!path.empty()) return checked(read_stereo_calibration(path), path);
+  if (is_lcm_log(source)) return checked(calibration_in(source), source);
   check_exists(source);
   throw config::UsageError("--calibration is missing; see --help");
 }

@@ -56,16 +56,23 @@ Verdict judge(const StereoFit& fit, double coverage, const VerdictParams& params
   } else if (T.x() > 0.0) {
     verdict.faults.push_back("the left camera stands to the right of the right one; swap them");
   }
-  if (fit.reprojection_px > params.max_reprojection_px)
+  if (!(fit.reprojection_px <= params.max_reprojection_px))
     verdict.faults.push_back(
         formatted("the reprojection error is %.2f px (limit %.2f); is the board flat, "
                   "are --columns and --rows right?",
                   fit.reprojection_px, params.max_reprojection_px));
-  if (fit.epipolar_px > params.max_epipolar_px)
+  const bool shows_boards = std::any_of(fit.figures.begin(), fit.figures.end(),
+                                        [](const ViewFit& view) { return view.num_rectified > 0; });
+  if (!shows_boards) {
+    verdict.faults.push_back(
+        "the rectified images show none of the boards, so that their rows are not known to match; "
+        "show it in the middle of both images, too");
+  } else if (!(fit.epipolar_px <= params.max_epipolar_px)) {
     verdict.faults.push_back(
         formatted("the epipolar error is %.2f px (limit %.2f); were both images "
                   "taken at the same time?",
                   fit.epipolar_px, params.max_epipolar_px));
+  }
   const std::size_t num_outliers = fit.outliers.size();
   const std::size_t num_views = fit.views.size() + num_outliers;
   if (num_outliers > std::max<double>(params.max_outliers,

@@ -43,14 +43,15 @@ std::vector<Eigen::Vector3d> rays_of(const std::vector<cv::Point2d>& pixels,
   return rays;
 }
 
-/// Tangent, along an axis of the image, of that of these pixels which is nearest to the middle.
-double nearest_tangent(const std::vector<cv::Point2d>& border, int axis,
-                       const LensCalibration& lens, const Eigen::Matrix3d& R) {
-  double tangent = std::tan(radians(kFisheyeReach_deg));
+/// Tangent, along an axis of the image, of that of these pixels which is farthest inwards.
+/// `outwards`: 1 where the border is to the right or below, -1 where it is to the left or above.
+double innermost_tangent(const std::vector<cv::Point2d>& border, int axis, double outwards,
+                         const LensCalibration& lens, const Eigen::Matrix3d& R) {
+  double reach = std::tan(radians(kFisheyeReach_deg));
   for (const Eigen::Vector3d& ray : rays_of(border, lens, R)) {
-    if (ray.z() > 0.0) tangent = std::min(tangent, std::abs(ray[axis]) / ray.z());
+    if (ray.z() > 0.0) reach = std::min(reach, outwards * ray[axis] / ray.z());
   }
-  return tangent;
+  return outwards * reach;
 }
 
 /// That of a camera which is turned by `R` from the lens, as far as a rectified one reaches.
@@ -66,8 +67,8 @@ Field field_of(const LensCalibration& lens, const Eigen::Matrix3d& R) {
     top.emplace_back(u, 0.0);
     bottom.emplace_back(u, last_v);
   }
-  return {-nearest_tangent(left, 0, lens, R), nearest_tangent(right, 0, lens, R),
-          -nearest_tangent(top, 1, lens, R), nearest_tangent(bottom, 1, lens, R)};
+  return {innermost_tangent(left, 0, -1.0, lens, R), innermost_tangent(right, 0, 1.0, lens, R),
+          innermost_tangent(top, 1, -1.0, lens, R), innermost_tangent(bottom, 1, 1.0, lens, R)};
 }
 
 /// What both see.
@@ -76,12 +77,13 @@ Field common(const Field& a, const Field& b) {
           std::min(a.bottom, b.bottom)};
 }
 
-/// The camera in whose image of this size that fits, and nothing else is seen along one axis.
+/// The camera in whose image of this size that fits, and nothing else is seen along one axis. Its
+/// focal length is infinite where the field holds nothing.
 Eigen::Matrix3d camera_of(const Field& field, const cv::Size& size) {
   const double last_u = size.width - 1.0;
   const double last_v = size.height - 1.0;
-  const double focal_px =
-      std::max(last_u / (field.right - field.left), last_v / (field.bottom - field.top));
+  const double focal_px = std::max(last_u / std::max(0.0, field.right - field.left),
+                                   last_v / std::max(0.0, field.bottom - field.top));
   Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
   K(0, 0) = K(1, 1) = focal_px;
   K(0, 2) = 0.5 * (last_u - focal_px * (field.left + field.right));

@@ -6,10 +6,23 @@
 #include <stdexcept>
 
 #include "common/camera/opencv_conversion.hpp"
+#include "common/formatted.hpp"
 #include "modules/reconstructor/rectification.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
+
+/// Throws where hardly anything of the images would be left, or nothing: what cv::stereoRectify and
+/// compute_rectification find for cameras that do not see the same has no meaning.
+void check_shows_something(const Rectification& rectification, const PinholeCamera& lens) {
+  const double focal_px = rectification.P1(0, 0);
+  if (rectification.P1.allFinite() && focal_px > 0.0 && focal_px <= kLargestRectifiedZoom * lens.fx)
+    return;
+  throw std::invalid_argument(
+      formatted("calibration: rectified images would show nothing that both cameras see (focal "
+                "length %.4g px, of the lens %.4g px); calibrate again",
+                focal_px, lens.fx));
+}
 
 /// Baseline of P2 = [f 0 cx -f*B; ...]; throws where the pair is no left and right one.
 double checked_baseline_m(const Rectification& rectification) {
@@ -72,6 +85,7 @@ Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
     throw std::invalid_argument("calibration: image size must be > 0");
   const Rectification rectification =
       calibration.rectification ? *calibration.rectification : compute_rectification(calibration);
+  check_shows_something(rectification, lens_left_);
   baseline_m_ = checked_baseline_m(rectification);
   const PinholeCamera full{lens_left_.width,       lens_left_.height,      rectification.P1(0, 0),
                            rectification.P1(1, 1), rectification.P1(0, 2), rectification.P1(1, 2)};

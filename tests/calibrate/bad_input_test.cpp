@@ -100,6 +100,24 @@ TEST(CalibrateProgram, NamesAPairThatIsNotOfTheCalibrationsSize) {
   }
 }
 
+TEST(CalibrateProgram, RefusesACalibrationByWhichRectifiedImagesShowNothing) {
+  const TemporaryFolder folder;
+  write_pair(folder, picture_of_wall("a", {640, 480}));
+  StereoCalibration cameras = true_cameras();
+  cameras.left.camera.cx = cameras.right.camera.cx = 0.0;
+  cameras.left.distortion = cameras.right.distortion = {};
+  const std::string file = folder / "any.yml";
+  write_stereo_calibration(file, cameras);
+  for (std::vector<std::string> arguments :
+       {std::vector<std::string>{"check"}, {"mounting", "--output", folder / "out.yml"}}) {
+    arguments.insert(arguments.end(), {"--source", folder.path(), "--calibration", file});
+    const Outcome outcome = run_program("limbcast-calibrate", arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("any.yml: calibration: rectified images would show nothing "
+                                       "that both cameras see"));
+  }
+}
+
 TEST(CalibrateProgram, RefusesPicturesThatAreTooLargeBeforeItDecodesThem) {
   const TemporaryFolder folder;
   cv::Mat picture(48, 64, CV_8UC1, cv::Scalar(90));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <optional>
 
 #include "common/camera/opencv_conversion.hpp"
 #include "modules/calibrate/coverage.hpp"
@@ -87,21 +88,72 @@ TEST(FisheyeFit, LeavesTermsOutWhereTheyWouldFoldTheImageBeyondTheBoards) {
       Contains(HasSubstr("the distortion has no k3 and k4: with them the image would fold")));
 }
 
-TEST(FisheyePose, IsFoundFarOffTheAxis) {
-  const Board board = large_board();
-  const LensCalibration lens = fisheye_cameras().left;
-  const std::vector<BoardPose> poses = poses_around(board);
-  for (const BoardPose& pose : {poses[0], poses[7], poses[14]}) {
-    std::vector<cv::Point3d> points;
-    for (int id = 0; id < board.num_points(); ++id)
-      points.emplace_back(point_in_squares(board, id));
-    std::vector<cv::Point2d> pixels;
-    const cv::Vec3d translation = pose.translation_m / board.square_m;
-    cv::fisheye::projectPoints(points, pixels, pose.rotation, translation,
-                               camera_matrix(lens.camera), lens.distortion);
-    const Pose found = fisheye_pose(points, pixels, lens, {}, {});
-    EXPECT_LT(cv::norm(found.translation, translation), 1e-4);
-    EXPECT_LT(cv::norm(found.rotation, pose.rotation), 1e-5);
+/// A board and where a lens shows it.
+struct SeenBoard {
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> pixels;
+  cv::Vec3d rotation, translation;  ///< of the board [sides of a square]
+};
+
+SeenBoard seen_board(const Board& board, const cv::Vec3d& rotation, const cv::Vec3d& translation,
+                     const LensCalibration& lens) {
+  SeenBoard seen{{}, {}, rotation, translation};
+  for (int id = 0; id < board.num_points(); ++id)
+    seen.points.emplace_back(point_in_squares(board, id));
+  cv::fisheye::projectPoints(seen.points, seen.pixels, rotation, translation,
+                             camera_matrix(lens.camera), lens.distortion);
+  return seen;
+}
+
+/// Without any steps but the first that is tried.
+FitParams hardly_fitted() {
+  FitParams params;
+  params.max_iterations = 1;
+  return params;
+}
+
+class FisheyePose : public ::testing::Test {
+ protected:
+  std::vector<SeenBoard> boards_around() const {
+    std::vector<SeenBoard> boards;
+    for (const BoardPose& pose : poses_around(board_))
+      boards.push_back(
+          seen_board(board_, pose.rotation, pose.translation_m / board_.square_m, lens_));
+    return boards;
+  }
+  Pose found(const SeenBoard& seen, const std::optional<Pose>& guess,
+             const FitParams& params) const {
+    return fisheye_pose(seen.points, seen.pixels, lens_, guess, params);
+  }
+  void expect_pose(const Pose& pose, const SeenBoard& seen) const {
+    EXPECT_LT(cv::norm(pose.translation, seen.translation), 1e-4);
+    EXPECT_LT(cv::norm(pose.rotation, seen.rotation), 1e-5);
+  }
+  Board board_ = large_board();
+  LensCalibration lens_ = fisheye_cameras().left;
+};
+
+TEST_F(FisheyePose, IsFoundFarOffTheAxis) {
+  for (const SeenBoard& seen : boards_around()) expect_pose(found(seen, {}, {}), seen);
+}
+
+TEST_F(FisheyePose, BeginsWithTheGuess) {
+  for (const SeenBoard& seen : boards_around()) {
+    const Pose truth{cv::Mat(seen.rotation, true), cv::Mat(seen.translation, true)};
+    expect_pose(found(seen, truth, hardly_fitted()), seen);
+  }
+}
+
+TEST_F(FisheyePose, BeginsNearTheBoardWithoutAGuess) {
+  // 75 degrees off the axis, and 20 squares away.
+  for (const double angle_rad : {-1.3, 1.3}) {
+    const cv::Vec3d rotation(0.0, angle_rad, 0.0);
+    cv::Matx33d turn;
+    cv::Rodrigues(rotation, turn);
+    const SeenBoard seen = seen_board(board_, rotation, turn * cv::Vec3d(-4.0, -2.5, 20.0), lens_);
+    const Pose pose = found(seen, {}, hardly_fitted());
+    EXPECT_LT(cv::norm(pose.translation, seen.translation), 0.1);
+    EXPECT_LT(cv::norm(pose.rotation, seen.rotation), 0.01);
   }
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "modules/calibrate/report.hpp"
 #include "modules/calibrate/verdict.hpp"
 #include "tests/calibrate/boards.hpp"
 #include "tests/calibrate/found_cameras.hpp"
@@ -14,6 +16,7 @@ namespace limbcast::calibrate {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
@@ -188,6 +191,22 @@ TEST(Judge, RefusesALensThatNoModuleWouldRead) {
               Contains(HasSubstr("right camera: its distortion folds the image")));
 }
 
+TEST(Judge, RefusesWhatNoRectifiedImageShows) {
+  StereoFit fit = good_fit();
+  for (ViewFit& view : fit.figures) view.num_rectified = 0;
+  fit.epipolar_px = 0.0;
+  EXPECT_THAT(judge(fit, 0.8).faults,
+              Contains(HasSubstr("the rectified images show none of the boards")));
+}
+
+TEST(Judge, RefusesErrorsThatAreNoNumbers) {
+  StereoFit fit = good_fit();
+  fit.reprojection_px = fit.epipolar_px = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::string> faults = judge(fit, 0.8).faults;
+  EXPECT_THAT(faults, Contains(HasSubstr("the reprojection error is nan px")));
+  EXPECT_THAT(faults, Contains(HasSubstr("the epipolar error is nan px")));
+}
+
 TEST(Judge, RefusesWhatCoversLittleOfTheImage) {
   const StereoFit fit = good_fit();
   EXPECT_THAT(judge(fit, 0.2).faults, Contains(HasSubstr("the boards cover 20 % of the image")));
@@ -206,6 +225,18 @@ TEST(Judge, WarnsWhereASquareWasToldInCentimetresOrMetres) {
     fit.calibration.T *= factor;
     EXPECT_THAT(judge(fit, 0.8).warnings, Contains(HasSubstr("is --square-mm in millimetres?")));
   }
+}
+
+TEST(ViewTable, TellsNoEpipolarErrorOfWhatRectifiedImagesDoNotShow) {
+  ViewFit seen;
+  seen.name = "seen";
+  seen.num_rectified = 54;
+  seen.epipolar_px = 0.25;
+  ViewFit outside;
+  outside.name = "outside";
+  const std::string table = view_table({seen, outside});
+  EXPECT_THAT(table, ContainsRegex("\nseen( +[0-9.]+){3} +0\\.25 "));
+  EXPECT_THAT(table, ContainsRegex("\noutside( +[0-9.]+){3} +- "));
 }
 
 TEST(Advise, AsksForNothingMoreWhenViewsAreVaried) {

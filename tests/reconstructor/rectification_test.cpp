@@ -1,5 +1,6 @@
 #include "modules/reconstructor/rectification.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -13,6 +14,7 @@
 #include "common/units.hpp"
 #include "modules/reconstructor/reconstructor.hpp"
 #include "tests/reconstructor/synthetic_pair.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
@@ -112,6 +114,37 @@ TEST(FisheyeRectification, SeesNoMoreWhereTheLensReachesBeyond90Degrees) {
   EXPECT_NEAR(half_angle_deg(319.5, rectification.P1(0, 0)), 55.0, 1e-6);
   EXPECT_NEAR(rectification.P1(0, 2), 319.5, 1e-6);
   EXPECT_NEAR(rectification.P1(1, 2), 239.5, 1e-6);
+}
+
+/// Narrow lenses, some 14 degrees to each side, that converge by so much.
+StereoCalibration converging_pair(double turn_deg) {
+  StereoCalibration cameras = fisheye_pair();
+  for (LensCalibration* lens : {&cameras.left, &cameras.right}) {
+    lens->camera.fx = lens->camera.fy = 1300.0;
+    lens->camera.cx = 319.5;
+    lens->camera.cy = 239.5;
+    lens->distortion = {0.0, 0.0, 0.0, 0.0};
+  }
+  cameras.R = Eigen::AngleAxisd(radians(turn_deg), Eigen::Vector3d::UnitY()).toRotationMatrix();
+  cameras.T = {-0.12, 0.0, 0.0};
+  return cameras;
+}
+
+TEST(FisheyeRectification, ShowsWhatBothSeeWhereTheyConverge) {
+  // The rectified cameras look where the right one does, whose axis is at the left one's border.
+  const Rectifier rectifier(converging_pair(16.0));
+  const cv::Mat white(480, 640, CV_8UC1, cv::Scalar(255));
+  const RectifiedPair pair = rectifier.rectify(white, white);
+  EXPECT_GT(cv::countNonZero(pair.left > 200), 640 * 480 - 2000);
+  EXPECT_GT(cv::countNonZero(pair.right > 200), 640 * 480 - 2000);
+}
+
+TEST(FisheyeRectification, RefusesCamerasThatSeeNothingInCommon) {
+  for (const double turn_deg : {-40.0, 40.0}) {
+    const StereoCalibration cameras = converging_pair(turn_deg);
+    EXPECT_THAT(test::error_of<std::invalid_argument>([&] { Rectifier{cameras}; }),
+                ::testing::HasSubstr("nothing that both cameras see"));
+  }
 }
 
 TEST(FisheyeRectification, KeepsTheBaselineAndTheRows) {

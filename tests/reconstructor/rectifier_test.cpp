@@ -9,6 +9,7 @@
 
 #include "tests/reconstructor/stereo_truth.hpp"
 #include "tests/reconstructor/synthetic_pair.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace limbcast::reconstructor {
 namespace {
@@ -41,6 +42,13 @@ TEST(Rectifier, RefusesCamerasAboveOneAnother) {
   StereoCalibration calibration = test::ideal_calibration();
   calibration.T = {0.0, -0.12, 0.0};
   EXPECT_THROW(Rectifier{calibration}, std::invalid_argument);
+}
+
+TEST(Rectifier, RefusesAPairOfWhichRectifiedImagesShowNothing) {
+  StereoCalibration calibration = test::ideal_calibration();
+  calibration.left.camera.cx = calibration.right.camera.cx = 0.0;  // cv::stereoRectify: NaN
+  EXPECT_THAT(test::error_of<std::invalid_argument>([&] { Rectifier{calibration}; }),
+              testing::HasSubstr("rectified images would show nothing that both cameras see"));
 }
 
 TEST(Rectifier, RefusesImagesOfAnotherSize) {
