@@ -3,7 +3,7 @@
 # the recordings of bodies D1 to D3, writes confidence_coefficients.inc and person_trees.inc of
 # modules/pose_fitter/refined/confidence and prints how often what was told with which probability came true. Build again afterwards.
 # Usage: tests/pose_fitter/train.sh SIMULATED_DIR DATA_DIR [BIN_DIR]
-#   SIMULATED_DIR   11000 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
+#   SIMULATED_DIR   12000 simulated frames, 4 GB, about half an hour on two cores; sets that are there stay
 #   DATA_DIR        the folder of stereo_dev
 #   BIN_DIR         default: build/release/bin
 # Run it after the cost, the search, the heads' classifier or the matcher changed.
@@ -120,6 +120,14 @@ simulate p_high_general general stereo 100 906 --max-distance-m 4.5 "${high[@]}"
 simulate p_high_nohuman nohuman stereo 120 907 "${high[@]}"
 simulate p_low_depth general depth 80 908 --color --max-distance-m 4.5 "${low[@]}"
 simulate p_low_depth_nohuman nohuman depth 100 909 --color "${low[@]}"
+# Near a robot, where heads are above the image.
+simulate p_headless_pointing pointing stereo 150 931 --head-above-share 0.6 "${near_rooms[@]}"
+simulate p_headless_general general stereo 150 932 --head-above-share 0.6 "${near_rooms[@]}"
+simulate p_headless_multi multi stereo 80 933 --head-above-share 0.5 "${near_rooms[@]}"
+simulate p_headless_nohuman nohuman stereo 200 934 "${near_rooms[@]}"
+simulate p_headless_depth general depth 120 935 --color --head-above-share 0.6 "${near_rooms[@]}"
+simulate p_headless_colorless general depth 120 936 --color=false --head-above-share 0.6 "${near_rooms[@]}"
+simulate p_headless_depth_nohuman nohuman depth 150 937 --color "${near_rooms[@]}"
 
 recorded=()
 for set in pointing general multi hd; do recorded+=("$data/stereo_dev/$set"); done

@@ -94,7 +94,6 @@ simulate h_depth general depth 400 20162 --posture hold "${gray[@]}" "${children
 simulate h_multi multi stereo 150 20163 --posture hold --child-share 0.15
 simulate h_stereo_near general stereo 250 20164 --posture hold --child-share 0.1 --min-distance-m 0.8 --max-distance-m 2.5
 simulate h_laser general laser 150 20165 --posture hold "${children[@]}" "${far[@]}"
-near_rooms=(--min-camera-height-m 0.4 --max-camera-height-m 1.3 --min-distance-m 0.6 --max-distance-m 2.4)
 above=("${near_rooms[@]}" --head-above-share 1)
 simulate a_stereo general stereo 400 20171 "${children[@]}" "${above[@]}"
 simulate a_depth general depth 400 20172 "${gray[@]}" "${children[@]}" "${above[@]}"

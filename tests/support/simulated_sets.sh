@@ -4,11 +4,12 @@
 folders=()
 
 # Cameras near the floor, above heads, and such that look up, as robots of other sizes have them, and at a desk, where
-# legs are out of sight.
+# legs are out of sight. Near a robot, where heads may be above the image.
 low=(--min-camera-height-m 0.2 --max-camera-height-m 0.6 --pitch-down-deg -12)
 high=(--min-camera-height-m 1.8 --max-camera-height-m 2.4 --pitch-down-deg 22)
 up=(--pitch-down-deg -20)
 desk=(--min-distance-m 0.6 --max-distance-m 1.5 --min-camera-height-m 1 --max-camera-height-m 1.6)
+near_rooms=(--min-camera-height-m 0.4 --max-camera-height-m 1.3 --min-distance-m 0.6 --max-distance-m 2.4)
 
 # Scanners: a dense raster, and 32 rings over a usual and a wide angle; people in coats, children among them.
 dense=(--rings 269 --azimuth-step-deg 0.25 --max-azimuth-deg 45 --max-elevation-deg 33.5)
