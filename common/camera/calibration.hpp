@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,17 +10,9 @@ namespace limbcast {
 
 /// Larger than any camera that fits a robot; guards against nonsense in files and messages [px].
 inline constexpr int kMaxImageSide = 8192;
-/// Rounding to 4 digits, as some tools write, keeps a rotation within this of orthonormal.
-inline constexpr double kRotationTolerance = 1e-3;
 
 /// A rectified camera may show more or less than the lens does, by no more than so many times.
 inline constexpr double kLargestRectifiedZoom = 10.0;
-
-/// How far a matrix is from a rotation: largest coefficient of R R^T - 1; infinite for a mirror.
-inline double deviation_from_rotation(const Eigen::Matrix3d& R) {
-  if (R.determinant() < 0.0) return std::numeric_limits<double>::infinity();
-  return (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-}
 
 /// How the angle between a ray and the optical axis becomes a distance from the principal point.
 enum class LensModel {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/camera/calibration_checks.hpp"
+#include "common/camera/rotation_check.hpp"
 #include "common/camera/yaml_reader.hpp"
 #include "common/formatted.hpp"
 #include "common/input_error.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/human_model/shortest_turn.hpp"
+#include "common/shortest_turn.hpp"
 #include "common/units.hpp"
 
 namespace limbcast {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/camera/rotation_check.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/plausible.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "common/camera/lens_projection.hpp"
 #include "common/camera/opencv_conversion.hpp"
+#include "common/shortest_turn.hpp"
 #include "common/units.hpp"
 #include "modules/calibrate/least_squares.hpp"
 
@@ -116,7 +117,7 @@ Pose first_pose(const SeenView& view, const LensCalibration& lens) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& ray : rays) middle += ray;
   const Eigen::Matrix3d turn =
-      Eigen::Quaterniond::FromTwoVectors(middle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      shortest_turn<double>(middle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   std::vector<cv::Point2d> tangents;
   for (const Eigen::Vector3d& ray : rays) {
     const Eigen::Vector3d turned = turn * ray;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/human_model/shortest_turn.hpp"
+#include "common/shortest_turn.hpp"
 #include "common/units.hpp"
 
 namespace limbcast::simulate {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/shortest_turn.hpp"
 #include "common/units.hpp"
 #include "modules/simulate/scene.hpp"
 
@@ -129,8 +130,7 @@ void SceneBuilder::Placed::bar(const Vector3d& from, const Vector3d& to, double 
   const Vector3d along = to - from;
   const double length = along.norm();
   Solid& solid = scene.box(world(0.5 * (from + to)), {length, thick_m, thick_m}, yaw_rad, material);
-  const Eigen::Quaterniond tilt =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), along / length);
+  const Eigen::Quaterniond tilt = shortest_turn<double>(Vector3d::UnitX(), along);
   solid.frame_from_solid.linear() = (turn() * tilt).toRotationMatrix().cast<float>();
 }
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "common/human_model/shortest_turn.hpp"
+#include "common/shortest_turn.hpp"
 
 namespace limbcast::pose_fitter {
 namespace {

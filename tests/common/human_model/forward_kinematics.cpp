@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common/human_model/shortest_turn.hpp"
+#include "common/shortest_turn.hpp"
 
 namespace limbcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "common/human_model/shortest_turn.hpp"
+#include "common/shortest_turn.hpp"
 
 #include <gtest/gtest.h>
 
