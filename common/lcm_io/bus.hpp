@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/group_membership.hpp"
 
 namespace limbcast::lcm_io {
@@ -80,9 +81,7 @@ class Bus {
   /// 64 kB.
   template <class Message>
   std::string publish(const std::string& channel, const Message& message) {
-    std::vector<std::uint8_t> bytes(message.getEncodedSize());
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    return publish_bytes(channel, bytes);
+    return publish_bytes(channel, encode(message));
   }
 
   /// Subscriptions of the newest message are handled only while `open` tells so; meanwhile newer

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/config/output_file.hpp"
+#include "common/lcm_io/encode.hpp"
 
 namespace limbcast::lcm_io {
 
@@ -71,9 +72,7 @@ class LogWriter {
   void copy(const LogEvent& event);
   template <class Message>
   void write(std::int64_t utime, const std::string& channel, const Message& message) {
-    LogEvent event{utime, channel, std::vector<std::uint8_t>(message.getEncodedSize())};
-    message.encode(event.data.data(), 0, static_cast<int>(event.data.size()));
-    write(event);
+    write(LogEvent{utime, channel, encode(message)});
   }
   /// Writes out what is buffered and closes. Throws like write; the destructor closes without a
   /// word.

@@ -8,6 +8,7 @@
 
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/log_file.hpp"
 #include "common/units.hpp"
 #include "modules/log/message_types.hpp"
@@ -117,8 +118,7 @@ class Survey {
     // The time of sending differs in each; the rest tells whether the calibration is another.
     stereo_calibration_t timeless = message;
     timeless.utime = 0;
-    camera.last_bytes.resize(timeless.getEncodedSize());
-    timeless.encode(camera.last_bytes.data(), 0, static_cast<int>(camera.last_bytes.size()));
+    camera.last_bytes = lcm_io::encode(timeless);
     add_camera(message.sensor, std::move(camera));
   }
 

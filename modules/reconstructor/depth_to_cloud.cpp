@@ -5,7 +5,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "common/camera/lens_projection.hpp"
 #include "common/camera/opencv_conversion.hpp"
 #include "modules/reconstructor/colors.hpp"
 
@@ -19,24 +18,6 @@ void check(const cv::Mat& depth, const cv::Mat& color, const PinholeCamera& came
     throw std::invalid_argument("depth image has another size than the calibration says");
   if (!color.empty() && color.size() != depth.size())
     throw std::invalid_argument("colour and depth image differ in size");
-}
-
-struct UndistortedImages {
-  cv::Mat depth, color;
-};
-UndistortedImages undistort(const cv::Mat& depth, const cv::Mat& color,
-                            const LensCalibration& lens) {
-  if (!has_distortion(lens)) return {depth, color};
-  const LensMaps maps =
-      undistorting_maps(lens, cv::noArray(), camera_matrix(lens.camera), depth.size());
-  // Depths of two surfaces must not be mixed: the nearest pixel's is taken. The maps' whole pixels
-  // alone are rounded down, half a pixel off on average.
-  cv::Mat places;
-  cv::convertMaps(maps.xy, maps.fraction, places, cv::noArray(), CV_32FC2);
-  UndistortedImages result;
-  cv::remap(depth, result.depth, places, cv::noArray(), cv::INTER_NEAREST);
-  if (!color.empty()) cv::remap(color, result.color, maps.xy, maps.fraction, cv::INTER_LINEAR);
-  return result;
 }
 
 /// Between two surfaces: one neighbour much nearer, the opposite one much farther.
@@ -67,28 +48,47 @@ bool is_flying(const cv::Mat1f& depth_m, int u, int v, const PinholeCamera& came
 
 }  // namespace
 
-Cloud depth_to_cloud(const cv::Mat& depth, const cv::Mat& color,
-                     const DepthCalibration& calibration, const DepthToCloudParams& params) {
-  const PinholeCamera& camera = calibration.color.camera;
-  check(depth, color, camera);
-  const UndistortedImages images = undistort(depth, color, calibration.color);
+DepthToCloud::DepthToCloud(const DepthCalibration& calibration, const DepthToCloudParams& params)
+    : camera_(calibration.color.camera),
+      depth_scale_m_(calibration.depth_scale_m),
+      params_(params) {
+  if (!has_distortion(calibration.color)) return;
+  color_maps_ = undistorting_maps(calibration.color, cv::noArray(), camera_matrix(camera_),
+                                  cv::Size(camera_.width, camera_.height));
+  // The maps' whole pixels alone are rounded down, half a pixel off on average.
+  cv::convertMaps(color_maps_.xy, color_maps_.fraction, depth_map_, cv::noArray(), CV_32FC2);
+}
+
+DepthToCloud::Images DepthToCloud::undistort(const Images& images) const {
+  if (depth_map_.empty()) return images;
+  Images result;
+  // Depths of two surfaces must not be mixed: the nearest pixel's is taken.
+  cv::remap(images.depth, result.depth, depth_map_, cv::noArray(), cv::INTER_NEAREST);
+  if (!images.color.empty())
+    cv::remap(images.color, result.color, color_maps_.xy, color_maps_.fraction, cv::INTER_LINEAR);
+  return result;
+}
+
+Cloud DepthToCloud::cloud_of(const cv::Mat& depth, const cv::Mat& color) const {
+  check(depth, color, camera_);
+  const Images images = undistort({depth, color});
   Cloud cloud;
-  cloud.camera = camera;
-  cloud.width = camera.width;
-  cloud.height = camera.height;
-  cloud.stamp.depth_noise = {static_cast<float>(params.noise_constant_m),
-                             static_cast<float>(params.noise_quadratic_per_m)};
+  cloud.camera = camera_;
+  cloud.width = camera_.width;
+  cloud.height = camera_.height;
+  cloud.stamp.depth_noise = {static_cast<float>(params_.noise_constant_m),
+                             static_cast<float>(params_.noise_quadratic_per_m)};
   cv::Mat1f depth_m;
-  images.depth.convertTo(depth_m, CV_32F, calibration.depth_scale_m);
-  depth_m.setTo(0.0F, (depth_m < params.near_limit_m) | (depth_m > params.far_limit_m));
+  images.depth.convertTo(depth_m, CV_32F, depth_scale_m_);
+  depth_m.setTo(0.0F, (depth_m < params_.near_limit_m) | (depth_m > params_.far_limit_m));
 
   cloud.points_m.assign(depth_m.total(), Eigen::Vector3f::Zero());
   std::size_t index = 0;
   for (int v = 0; v < cloud.height; ++v) {
     for (int u = 0; u < cloud.width; ++u, ++index) {
-      if (depth_m(v, u) <= 0.0F || is_flying(depth_m, u, v, camera, params)) continue;
+      if (depth_m(v, u) <= 0.0F || is_flying(depth_m, u, v, camera_, params_)) continue;
       cloud.points_m[index] =
-          camera.back_project(static_cast<float>(u), static_cast<float>(v), depth_m(v, u));
+          camera_.back_project(static_cast<float>(u), static_cast<float>(v), depth_m(v, u));
     }
   }
   cloud.colors = colors_of(images.color);

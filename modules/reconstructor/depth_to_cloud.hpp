@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "common/camera/calibration.hpp"
+#include "common/camera/lens_projection.hpp"
 #include "common/cloud/cloud.hpp"
 
 namespace limbcast::reconstructor {
@@ -25,10 +26,30 @@ struct DepthToCloudParams {
   double flying_window_m = 0.015;
 };
 
-/// Organised cloud in the colour camera's frame. `depth` is 16-bit and registered to `color` (8-bit
-/// BGR or grey, or empty), 0 = hole. Fills points, colours, camera and depth noise. Throws
-/// std::invalid_argument where sizes or types do not fit.
-Cloud depth_to_cloud(const cv::Mat& depth, const cv::Mat& color,
-                     const DepthCalibration& calibration, const DepthToCloudParams& params = {});
+/// Makes organised clouds, in the colour camera's frame, of one camera's images.
+class DepthToCloud {
+ public:
+  /// What depends on the lens alone is computed here, once for all frames.
+  explicit DepthToCloud(const DepthCalibration& calibration, const DepthToCloudParams& params = {});
+
+  /// `depth` is 16-bit and registered to `color` (8-bit BGR or grey, or empty), 0 = hole. Fills
+  /// points, colours, camera and depth noise. Throws std::invalid_argument where sizes or types do
+  /// not fit.
+  Cloud cloud_of(const cv::Mat& depth, const cv::Mat& color) const;
+
+ private:
+  struct Images {
+    cv::Mat depth, color;
+  };
+  Images undistort(const Images& images) const;
+
+  PinholeCamera camera_;
+  double depth_scale_m_;
+  DepthToCloudParams params_;
+  /// From the image without distortion to the lens', for colours and to whole pixels for depths;
+  /// empty where the lens has none.
+  LensMaps color_maps_;
+  cv::Mat depth_map_;
+};
 
 }  // namespace limbcast::reconstructor

@@ -7,7 +7,6 @@
 
 #include "common/cloud/ground_plane.hpp"
 #include "common/formatted.hpp"
-#include "modules/reconstructor/depth_to_cloud.hpp"
 #include "modules/reconstructor/matcher.hpp"
 #include "modules/reconstructor/near_look.hpp"
 #include "modules/reconstructor/row_alignment.hpp"
@@ -34,6 +33,13 @@ cv::Rect region_of_interest(const ReconstructorOptions& options, const PinholeCa
         "see roi-x, roi-y, roi-width and roi-height",
         roi.width, roi.height, camera.width, camera.height, kLeastSide_px, kLeastSide_px));
   return roi;
+}
+
+DepthToCloudParams limits_of(const ReconstructorOptions& options) {
+  DepthToCloudParams params;
+  params.near_limit_m = options.depth_near_limit_m();
+  params.far_limit_m = options.far_limit_m;
+  return params;
 }
 
 /// The frame's gravity, or the mounting's where the frame has none.
@@ -110,19 +116,18 @@ Cloud StereoReconstructor::reconstruct(const StereoImages& images) const {
   return cloud;
 }
 
-DepthReconstructor::DepthReconstructor(DepthCalibration calibration,
+DepthReconstructor::DepthReconstructor(const DepthCalibration& calibration,
                                        const ReconstructorOptions& options)
-    : calibration_(std::move(calibration)), options_(options) {}
+    : depth_to_cloud_(calibration, limits_of(options)),
+      mounting_(calibration.mounting),
+      ground_plane_(options.ground_plane) {}
 
 Cloud DepthReconstructor::reconstruct(const DepthImages& images) const {
-  DepthToCloudParams params;
-  params.near_limit_m = options_.depth_near_limit_m();
-  params.far_limit_m = options_.far_limit_m;
-  Cloud cloud = depth_to_cloud(images.depth, images.color, calibration_, params);
-  stamp_cloud(cloud, images.stamp, calibration_.mounting, "/color");
+  Cloud cloud = depth_to_cloud_.cloud_of(images.depth, images.color);
+  stamp_cloud(cloud, images.stamp, mounting_, "/color");
   // Laxer than of pairs: six of a real one's 60 frames take something else for the ground so, and
   // the mean error of its joints is 0.1 cm less all the same (tests/accuracy/README.md).
-  if (options_.ground_plane) complete_gravity(cloud, GroundPlaneParams{});
+  if (ground_plane_) complete_gravity(cloud, GroundPlaneParams{});
   return cloud;
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/camera/calibration.hpp"
 #include "common/camera/images.hpp"
+#include "modules/reconstructor/depth_to_cloud.hpp"
 #include "modules/reconstructor/disparity.hpp"
 #include "modules/reconstructor/options.hpp"
 #include "modules/reconstructor/rectifier.hpp"
@@ -41,13 +42,14 @@ class StereoReconstructor {
 /// From a depth camera's frame to an organised, coloured cloud.
 class DepthReconstructor {
  public:
-  DepthReconstructor(DepthCalibration calibration, const ReconstructorOptions& options);
+  DepthReconstructor(const DepthCalibration& calibration, const ReconstructorOptions& options);
 
   Cloud reconstruct(const DepthImages& images) const;
 
  private:
-  DepthCalibration calibration_;
-  ReconstructorOptions options_;
+  DepthToCloud depth_to_cloud_;
+  Mounting mounting_;
+  bool ground_plane_;
 };
 
 }  // namespace limbcast::reconstructor

@@ -7,6 +7,7 @@
 #include "common/config/log.hpp"
 #include "common/lcm_io/calibration_codec.hpp"
 #include "common/lcm_io/depth_images_codec.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/stereo_images_codec.hpp"
 
@@ -28,6 +29,15 @@ std::string shared_name_warning(const std::string& sensor) {
   return "two cameras are called '" + sensor +
          "': calibrations alternate, and pairs are matched with the other one's; give each its own "
          "--sensor";
+}
+
+/// What of a depth camera's message is the same in all its frames.
+std::vector<std::uint8_t> calibration_bytes(const depth_images_t& images) {
+  depth_images_t calibration{};
+  calibration.lens = images.lens;
+  calibration.depth_scale_m = images.depth_scale_m;
+  calibration.mounting = images.mounting;
+  return lcm_io::encode(calibration);
 }
 
 }  // namespace
@@ -58,8 +68,7 @@ void declare(config::Section& section, StageOptions& options) {
 
 void Stage::on_calibration(stereo_calibration_t message) {
   message.utime = 0;  // sent once a second, but the same
-  std::vector<std::uint8_t> bytes(message.getEncodedSize());
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  std::vector<std::uint8_t> bytes = lcm_io::encode(message);
   const Camera* known = cameras_.find(message.sensor);
   if (known != nullptr && known->calibration == bytes) {
     cameras_.get(message.sensor);  // the one used last is kept longest
@@ -87,9 +96,19 @@ point_cloud_t Stage::process(const StereoReconstructor& reconstructor,
   return lcm_io::to_message(reconstructor.reconstruct(lcm_io::from_message(images)));
 }
 
+std::shared_ptr<const DepthReconstructor> Stage::depth_reconstructor(
+    const depth_images_t& images, const DepthCalibration& calibration) const {
+  const std::vector<std::uint8_t> bytes = calibration_bytes(images);
+  const std::lock_guard lock(depth_cameras_mutex_);
+  DepthCamera& camera = depth_cameras_.get(images.stamp.sensor);
+  if (camera.reconstructor == nullptr || camera.calibration != bytes)
+    camera = {bytes, std::make_shared<const DepthReconstructor>(calibration, options_.algorithm)};
+  return camera.reconstructor;
+}
+
 point_cloud_t Stage::process(const depth_images_t& images) const {
   const auto [frame, calibration] = lcm_io::from_message(images);
-  return lcm_io::to_message(DepthReconstructor(calibration, options_.algorithm).reconstruct(frame));
+  return lcm_io::to_message(depth_reconstructor(images, calibration)->reconstruct(frame));
 }
 
 }  // namespace limbcast::reconstructor

@@ -6,6 +6,7 @@
 #include <limbcast/stereo_calibration_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class Stage {
 
   static point_cloud_t process(const StereoReconstructor& reconstructor,
                                const stereo_images_t& images);
+  /// Several threads may call it.
   point_cloud_t process(const depth_images_t& images) const;
 
  private:
@@ -55,8 +57,19 @@ class Stage {
     /// Its calibration came back after another one.
     bool is_shared = false;
   };
+  struct DepthCamera {
+    std::vector<std::uint8_t> calibration;
+    std::shared_ptr<const DepthReconstructor> reconstructor;
+  };
+  /// The sensor's, made anew where the calibration is another one than before. Each frame brings
+  /// it, and the maps of a fisheye lens take 12 ms (VGA), of a pinhole 2.
+  std::shared_ptr<const DepthReconstructor> depth_reconstructor(
+      const depth_images_t& images, const DepthCalibration& calibration) const;
+
   StageOptions options_;
   BoundedMap<Camera> cameras_;  ///< by sensor
+  mutable std::mutex depth_cameras_mutex_;
+  mutable BoundedMap<DepthCamera> depth_cameras_;  ///< by sensor
 };
 
 }  // namespace limbcast::reconstructor

@@ -5,6 +5,7 @@
 
 #include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/module.hpp"
 
 namespace limbcast::replay {
@@ -15,9 +16,7 @@ using lcm_io::LogEvent;
 
 template <class Message>
 LogEvent to_event(std::int64_t utime, const std::string& channel, const Message& message) {
-  LogEvent event{utime, channel, std::vector<std::uint8_t>(message.getEncodedSize())};
-  message.encode(event.data.data(), 0, static_cast<int>(event.data.size()));
-  return event;
+  return {utime, channel, lcm_io::encode(message)};
 }
 
 template <class Message>

@@ -16,6 +16,7 @@
 
 #include "common/bounded_map.hpp"
 #include "common/config/options.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/lcm_url.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -118,9 +119,7 @@ TEST(Bus, KeepsAsManySensorsAsARobotHasWhateverNamesComeIn) {
 TEST(SensorOfAFrame, IsReadFromItsStamp) {
   const auto read = [](auto message) {
     message.stamp.sensor = "front";
-    std::vector<std::uint8_t> bytes(message.getEncodedSize());
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    return sensor_of(bytes);
+    return sensor_of(encode(message));
   };
   EXPECT_EQ(read(stereo_images_t{}), "front");
   EXPECT_EQ(read(depth_images_t{}), "front");

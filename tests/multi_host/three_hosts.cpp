@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "common/lcm_io/encode.hpp"
 #include "tests/replay/log_tools.hpp"
 
 namespace limbcast::test {
@@ -30,9 +31,7 @@ constexpr std::size_t kVainFrames = 200;
 
 std::vector<std::uint8_t> bytes_without_stamp(body_poses_t poses) {
   poses.stamp = stamp_t{};
-  std::vector<std::uint8_t> bytes(poses.getEncodedSize());
-  poses.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return lcm_io::encode(poses);
 }
 
 std::string host_of(const std::string& program) {

@@ -20,7 +20,7 @@ Cloud cloud_of(const std::function<double(int, int)>& depth_at) {
     for (int u = 0; u < kWidth; ++u)
       depth_mm(v, u) = static_cast<std::uint16_t>(std::lround(1000.0 * depth_at(u, v)));
   }
-  return depth_to_cloud(depth_mm, {}, calibration);
+  return DepthToCloud(calibration).cloud_of(depth_mm, {});
 }
 
 int holes(const Cloud& cloud) {
@@ -72,7 +72,7 @@ TEST(DepthToCloud, TakesTheNearestPixelOfADistortedImage) {
   // Each depth tells its column.
   cv::Mat1w depth_mm(kHeight, kWidth);
   for (int u = 0; u < kWidth; ++u) depth_mm.col(u) = 1000 + u;
-  const Cloud cloud = depth_to_cloud(depth_mm, {}, calibration);
+  const Cloud cloud = DepthToCloud(calibration).cloud_of(depth_mm, {});
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
       const double x = (u - kWidth / 2.0) / kFocalPx;
@@ -92,7 +92,7 @@ TEST(DepthToCloud, PutsWhatAFisheyeSeesWhereItIs) {
   // A post, seen 0.75 rad to the right of the middle.
   cv::Mat1w depth_mm(kHeight, kWidth, std::uint16_t{0});
   depth_mm.colRange(123, 128) = 1000;
-  const Cloud cloud = depth_to_cloud(depth_mm, {}, calibration);
+  const Cloud cloud = DepthToCloud(calibration).cloud_of(depth_mm, {});
   double sum_x_m = 0.0;
   int count = 0;
   for (int u = 0; u < kWidth; ++u) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/lcm_io/bus.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "tests/replay/log_tools.hpp"
 #include "tests/support/child_process.hpp"
 
@@ -21,9 +22,7 @@ constexpr int kFrames = 4;
 /// Without the sequence number: a live module numbers what it sends, however often it is played.
 std::vector<std::uint8_t> bytes_of(body_poses_t message) {
   message.stamp.sequence = 0;
-  std::vector<std::uint8_t> bytes(message.getEncodedSize());
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
+  return lcm_io::encode(message);
 }
 
 class SeparateProcesses : public ::testing::Test {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/message_error.hpp"
 #include "common/lcm_io/point_cloud_codec.hpp"
 #include "common/lcm_io/segments_codec.hpp"
@@ -14,8 +15,7 @@ namespace {
 
 TEST(Decode, RejectsForeignAndTruncatedBytes) {
   const point_cloud_t message = to_message(camera_cloud());
-  std::vector<std::uint8_t> bytes(message.getEncodedSize());
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const std::vector<std::uint8_t> bytes = encode(message);
   EXPECT_NO_THROW(decode<point_cloud_t>(bytes));
   EXPECT_THROW(decode<segments_t>(bytes), MessageError);
   for (const std::size_t size : {0U, 4U, 8U, 40U, 100U}) {

@@ -5,37 +5,31 @@
 
 #include <vector>
 
+#include "common/lcm_io/encode.hpp"
 #include "tests/common/codec/codec_messages.hpp"
 
 namespace limbcast::lcm_io {
 namespace {
 
-template <class Message>
-std::vector<std::uint8_t> bytes_of(const Message& message) {
-  std::vector<std::uint8_t> bytes(message.getEncodedSize());
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
 TEST(CodecMessages, KeepEveryFieldOfAStamp) {
   const stamp_t message = stamp_message();
-  EXPECT_EQ(bytes_of(to_message(from_message(message))), bytes_of(message));
+  EXPECT_EQ(encode(to_message(from_message(message))), encode(message));
 }
 
 TEST(CodecMessages, KeepEveryFieldOfABodyPose) {
   const body_poses_t message = body_poses_message();
-  EXPECT_EQ(bytes_of(to_message(from_message(message))), bytes_of(message));
+  EXPECT_EQ(encode(to_message(from_message(message))), encode(message));
 }
 
 TEST(CodecMessages, KeepEveryFieldOfACalibration) {
   const stereo_calibration_t message = calibration_message();
-  EXPECT_EQ(bytes_of(to_message(from_message(message), message.utime, message.sensor)),
-            bytes_of(message));
+  EXPECT_EQ(encode(to_message(from_message(message), message.utime, message.sensor)),
+            encode(message));
 }
 
 TEST(CodecMessages, TakeNoMemoryForElementsThatTheyOnlyClaim) {
   lens_t lens{};
-  std::vector<std::uint8_t> bytes = bytes_of(lens);
+  std::vector<std::uint8_t> bytes = encode(lens);
   // The number of coefficients is last: 2^24 of them claimed, none there.
   bytes[bytes.size() - 4] = 1;
   EXPECT_LT(lens.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
@@ -45,7 +39,7 @@ TEST(CodecMessages, TakeNoMemoryForElementsThatTheyOnlyClaim) {
 /// The message with another value in one of its bytes does not decode.
 template <class Message>
 void expect_undecodable(const Message& message, std::size_t byte, std::uint8_t value) {
-  std::vector<std::uint8_t> bytes = bytes_of(message);
+  std::vector<std::uint8_t> bytes = encode(message);
   bytes[byte] = value;
   Message decoded{};
   EXPECT_LT(decoded.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
@@ -54,7 +48,7 @@ void expect_undecodable(const Message& message, std::size_t byte, std::uint8_t v
 TEST(CodecMessages, DoNotDecodeWhereACountIsNegative) {
   const lens_t lens{};
   constexpr std::uint8_t kSign = 0x80;
-  expect_undecodable(lens, bytes_of(lens).size() - sizeof(lens.num_distortion), kSign);
+  expect_undecodable(lens, encode(lens).size() - sizeof(lens.num_distortion), kSign);
 }
 
 TEST(CodecMessages, DoNotDecodeWhereATextsLengthIsNegativeOrZero) {
@@ -73,7 +67,7 @@ TEST(CodecMessages, TakeNoMoreThanSixteenTimesTheirSizeInMemory) {
   body_poses_t poses{};
   poses.num_persons = 1;
   poses.persons.resize(1);
-  std::vector<std::uint8_t> bytes = bytes_of(poses);
+  std::vector<std::uint8_t> bytes = encode(poses);
   const std::size_t one_person = body_pose_t{}.getEncodedSize() - sizeof(std::int64_t);
   const std::size_t count = bytes.size() - one_person - sizeof(poses.num_persons);
   bytes[count + 2] = 1;  // 257 persons, and enough bytes for that many bytes
@@ -86,9 +80,9 @@ TEST(CodecMessages, TakeNoMoreThanSixteenTimesTheirSizeInMemory) {
 TEST(CodecMessages, KeepEveryFieldOfASegment) {
   const segments_t message = segments_message();
   const Segments segments = from_message(message);
-  EXPECT_EQ(bytes_of(to_message(segments)), bytes_of(message));
+  EXPECT_EQ(encode(to_message(segments)), encode(message));
 
-  EXPECT_EQ(bytes_of(to_message(segments.stamp)), bytes_of(stamp_message()));
+  EXPECT_EQ(encode(to_message(segments.stamp)), encode(stamp_message()));
   ASSERT_EQ(segments.segments.size(), 1U);
   const Segment& segment = segments.segments[0];
   EXPECT_EQ(segment.id, 9);
@@ -147,7 +141,7 @@ TEST(CodecMessages, KeepBothImagesOfAPairInEveryCoding) {
     const StereoImages back = from_message(message);
     EXPECT_LE(cv::norm(back.left, images.left, cv::NORM_INF), expected.largest_difference);
     EXPECT_LE(cv::norm(back.right, images.right, cv::NORM_INF), expected.largest_difference);
-    EXPECT_EQ(bytes_of(to_message(back.stamp)), bytes_of(stamp_message()));
+    EXPECT_EQ(encode(to_message(back.stamp)), encode(stamp_message()));
   }
 }
 
@@ -161,15 +155,15 @@ TEST(CodecMessages, KeepColorAndCalibrationOfDepthImages) {
                            noise_image(CV_16UC1)};
   const CalibratedDepthImages back = from_message(to_message(images, calibration, 95));
   EXPECT_LE(cv::norm(back.images.color, images.color, cv::NORM_INF), 4.0);
-  EXPECT_EQ(bytes_of(to_message(back.images.stamp)), bytes_of(stamp_message()));
-  EXPECT_EQ(bytes_of(to_message(back.calibration.color)), bytes_of(lens_message(20.0)));
-  EXPECT_EQ(bytes_of(to_message(back.calibration.mounting)), bytes_of(mounting_message()));
+  EXPECT_EQ(encode(to_message(back.images.stamp)), encode(stamp_message()));
+  EXPECT_EQ(encode(to_message(back.calibration.color)), encode(lens_message(20.0)));
+  EXPECT_EQ(encode(to_message(back.calibration.mounting)), encode(mounting_message()));
   EXPECT_EQ(back.calibration.depth_scale_m, 0.002);
 }
 
 TEST(CodecMessages, KeepCameraAndColorsOfAnOrganizedCloud) {
   const Cloud back = from_message(to_message(small_cloud(), 95));
-  EXPECT_EQ(bytes_of(to_message(back.stamp)), bytes_of(stamp_message()));
+  EXPECT_EQ(encode(to_message(back.stamp)), encode(stamp_message()));
   EXPECT_EQ(back.camera->fx, 50.0);
   EXPECT_EQ(back.camera->fy, 51.0);
   EXPECT_EQ(back.camera->cx, 7.0);
