@@ -157,5 +157,22 @@ TEST_F(FisheyePose, BeginsNearTheBoardWithoutAGuess) {
   }
 }
 
+TEST_F(FisheyePose, BeginsNearABoardWhoseBorderIsNearly90DegreesOffTheAxis) {
+  // 69 degrees off at its middle and 10 squares away. Along the axis tangents of the border's rays
+  // would be as large as its noise makes them.
+  cv::RNG random(5);
+  for (const double angle_rad : {-1.2, 1.2}) {
+    const cv::Vec3d rotation(0.0, angle_rad, 0.0);
+    cv::Matx33d turn;
+    cv::Rodrigues(rotation, turn);
+    SeenBoard seen = seen_board(board_, rotation, turn * cv::Vec3d(-4.0, -2.5, 10.0), lens_);
+    for (cv::Point2d& pixel : seen.pixels)
+      pixel += cv::Point2d(random.gaussian(0.3), random.gaussian(0.3));
+    const Pose pose = found(seen, {}, hardly_fitted());
+    EXPECT_LT(cv::norm(pose.translation, seen.translation), 0.1);
+    EXPECT_LT(cv::norm(pose.rotation, seen.rotation), 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace limbcast::calibrate
