@@ -33,7 +33,8 @@ constexpr std::size_t kExtraNumbers = 4;
 /// Throw std::runtime_error where a step is not known, or the library reports an error.
 std::unique_ptr<NetworkEngine> make_xnnpack_engine(const NetworkPart& part);
 std::unique_ptr<NetworkEngine> make_onednn_engine(const NetworkPart& part);
-/// Whether oneDNN is built in and this processor computes with brain floats (AVX512_BF16, AMX).
+/// Whether oneDNN is built in and quicker than XNNPACK: on processors that compute with brain
+/// floats (AVX512_BF16, AMX), and on those with AVX2 and no AVX-512.
 bool onednn_is_quick();
 
 }  // namespace limbcast::segmenter

@@ -8,8 +8,8 @@ namespace limbcast::segmenter {
 enum class NetworkLibrary {
   /// Google's, in 32 bits: quick on every processor, and gives nearly the same numbers on each.
   kXnnpack,
-  /// Intel's: in brain floats of 16 bits, for processors that compute with them (AVX512_BF16: AMD
-  /// since Zen 4; AMX), where it takes half the time. On others it is no quicker.
+  /// Intel's, where it takes half the time: in brain floats of 16 bits on processors that compute
+  /// with them (AVX512_BF16: AMD since Zen 4; AMX), in 32 bits on those with AVX2 alone.
   kOneDnn
 };
 

@@ -219,8 +219,9 @@ std::unique_ptr<NetworkEngine> make_onednn_engine(const NetworkPart& part) {
 }
 
 bool onednn_is_quick() {
-  const auto needed = static_cast<int>(dnnl::cpu_isa::avx512_core_bf16);
-  return (static_cast<int>(dnnl::get_effective_cpu_isa()) & needed) == needed;
+  if (computes_brain_floats()) return true;
+  // Debian's XNNPACK has too few registers there: its innermost loop waits for memory.
+  return onednn_has(dnnl::cpu_isa::avx2) && !onednn_has(dnnl::cpu_isa::avx512_core);
 }
 
 }  // namespace limbcast::segmenter

@@ -25,6 +25,13 @@ bool keeps_type(TfliteKind kind) {
 
 }  // namespace
 
+bool onednn_has(dnnl::cpu_isa instructions) {
+  const auto needed = static_cast<int>(instructions);
+  return (static_cast<int>(dnnl::get_effective_cpu_isa()) & needed) == needed;
+}
+
+bool computes_brain_floats() { return onednn_has(dnnl::cpu_isa::avx512_core_bf16); }
+
 void OneDnnCalls::add(dnnl::primitive primitive, Arguments arguments) {
   calls_.push_back({std::move(primitive), std::move(arguments)});
 }
@@ -59,9 +66,10 @@ void OneDnnTensors::find_exact_tensors(const NetworkPart& part) {
       is_exact_.insert(step->inputs.at(0));
 }
 
-/// What is computed of few cells has 32 bits: BlazePose sums a dozen such images up before it tells
-/// joints, which then err by 0.3 instead of 1.0 px for a twentieth of its time.
+/// What is computed of few cells has 32 bits on every processor: BlazePose sums a dozen such images
+/// up before it tells joints, which then err by 0.3 instead of 1.0 px for a twentieth of its time.
 OneDnnTensors::Type OneDnnTensors::computed_type(std::uint32_t index) const {
+  if (!computes_brain_floats()) return Type::f32;
   constexpr std::size_t kFewRows = 4;
   const auto& shape = told(index).shape;
   return shape.size() == 4 && shape[1] <= kFewRows ? Type::f32 : Type::bf16;

@@ -12,6 +12,11 @@
 
 namespace limbcast::segmenter {
 
+/// Whether oneDNN uses these instructions on this processor ($ONEDNN_MAX_CPU_ISA may forbid them).
+bool onednn_has(dnnl::cpu_isa instructions);
+/// Whether this processor computes with brain floats of 16 bits (AVX512_BF16, AMX).
+bool computes_brain_floats();
+
 /// What oneDNN computes, call after call, in the caller's thread.
 class OneDnnCalls {
  public:
@@ -36,7 +41,8 @@ class OneDnnCalls {
 };
 
 /// A network's tensors in oneDNN's memory: rows, columns and channels as TensorFlow has them, in
-/// 16 bits where that is exact enough. What is needed no more gives its memory to others.
+/// 16 bits where the processor computes with them and that is exact enough. What is needed no more
+/// gives its memory to others.
 class OneDnnTensors {
  public:
   using Type = dnnl::memory::data_type;

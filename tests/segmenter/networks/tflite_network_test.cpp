@@ -208,6 +208,14 @@ TEST(TfliteNetwork, GivesNearlyTheSameByEachLibrary) {
       ASSERT_NEAR(result[i], results[0][i], 0.3F) << i;
 }
 
+#ifdef __x86_64__
+TEST(NetworkLibraries, BeginWithOneDnnOnProcessorsWithAvx2AndNoAvx512) {
+  if (!__builtin_cpu_supports("avx2") || __builtin_cpu_supports("avx512f"))
+    GTEST_SKIP() << "this processor is another one";
+  EXPECT_EQ(network_libraries().front(), NetworkLibrary::kOneDnn);
+}
+#endif
+
 TEST_P(TfliteNetworkBy, GivesTheSameAgainAndAgain) {
   TfliteNetwork network(BlazeFace::file(), {"reshaped_regressor_face_4"}, GetParam());
   constexpr std::size_t kNumbers = std::size_t{48} * 48 * 16;
