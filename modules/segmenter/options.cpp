@@ -72,7 +72,8 @@ void declare(config::Section& section, SegmenterOptions& options) {
   section.add(
       "portable-networks", options.portable_networks,
       "compute networks in 32 bits as every processor can, so that other computers give the "
-      "same poses; at half the speed where the processor has brain floats of 16 bits");
+      "same poses; at half the speed where the processor has AVX2 and no AVX-512, or brain floats "
+      "of 16 bits");
   section.add("range-image-margin-m", params.range_image_margin_m, "m",
               "space kept around a person in the range image", {0.0F, 2.0F});
 }
