@@ -106,6 +106,19 @@ TEST(PersonConfidence, MayBeLowerOfSomebodyWhoseFaceIsInPlainSight) {
   EXPECT_FALSE(told_with(3.0F)) << "as simulated faces have";
 }
 
+TEST(PersonConfidence, IsNotEnoughWhereEveryJointIsLikelierElsewhere) {
+  FittedBody fitted = doubtful_person(0.8, 0.95);
+  fitted.observation.noise = kOfACamera;
+  const auto told = assess(fitted);
+  ASSERT_TRUE(told);
+  fitted.evidence.sigma_m.fill(0.2);
+  fitted.evidence.sigma_m[kHead] = 0.1;
+  EXPECT_GT(person_confidence(fitted), 0.75);
+  EXPECT_GT(joint_confidence(fitted.evidence, kHead), 0.1) << "enough for the head to be told";
+  for (int i = 0; i < kJointCount; ++i) EXPECT_LT(joint_confidence(fitted.evidence, i), 0.5);
+  EXPECT_FALSE(assess(fitted));
+}
+
 TEST(PersonConfidence, MustBeHighInCompanyTooOfSomebodyWhoseHeadIsNotTold) {
   FittedBody doubtful = doubtful_person(0.4, 0.6), sure = standing_person();
   for (FittedBody* fitted : {&doubtful, &sure}) {
