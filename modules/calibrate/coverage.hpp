@@ -8,8 +8,6 @@
 
 namespace limbcast::calibrate {
 
-enum class Side { kLeft, kRight };
-
 /// Where in the image the boards stood: 8 bit, 255 = inside of one; of the image's size.
 cv::Mat covered_area(const std::vector<View>& views, Side side, const cv::Size& image_size);
 /// Share of the image [0, 1].

@@ -12,6 +12,8 @@ namespace limbcast::calibrate {
 std::string view_table(const std::vector<ViewFit>& figures);
 /// A line for each pair that was not used, with the reason.
 std::string rejected_table(const std::vector<RejectedView>& rejected);
+/// A line for each image of which points were left out: how many, and how far the farthest was off.
+std::string left_out_table(const std::vector<OutlyingPoint>& left_out);
 /// What was found: errors, focal lengths, baseline.
 std::string summary_text(const StereoFit& fit);
 

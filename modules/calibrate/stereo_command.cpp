@@ -127,7 +127,8 @@ bool calibrate(const Options& options) {
   check_enough(collector.views(), collector.rejected());
   const StereoFit fit =
       fit_stereo(collector.views(), board, collector.image_size(), model_of(options));
-  print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
+  print(rejected_table(fit.outliers) + left_out_table(fit.outlying_points) +
+        view_table(fit.figures) + summary_text(fit));
   print_advice(advise(fit, collector.image_size()));
   const bool accepted = accept(fit, collector.image_size());
   if (accepted) {

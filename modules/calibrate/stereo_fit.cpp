@@ -236,7 +236,7 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 
 namespace {
 
-/// Without the views that are outliers.
+/// Without the views and points that are outliers.
 StereoFit fit_without_outliers(const std::vector<View>& views, const Board& board,
                                const cv::Size& image_size, const FitParams& params,
                                Distortion distortion) {
@@ -244,15 +244,16 @@ StereoFit fit_without_outliers(const std::vector<View>& views, const Board& boar
   std::vector<RejectedView> outliers;
   while (true) {
     check_enough(kept, outliers, params);
-    const Lenses lenses = fit_lenses(kept, board, image_size, distortion, params);
+    const auto [points, lenses] = fit_good_points(kept, board, image_size, distortion, params);
     Outlier outlier;
     if (focal_sigma(lenses) <= params.known_focal_sigma)
-      outlier = most_disagreeing_view(kept, board, lenses, params);
+      outlier = most_disagreeing_view(points.views, board, lenses, params);
     if (outlier.excess <= 1.0) {
-      StereoFit fit = fit_pair(kept, board, params, lenses, distortion);
+      StereoFit fit = fit_pair(points.views, board, params, lenses, distortion);
       outlier = worst_view(fit.figures, params);
       if (outlier.excess <= 1.0) {
         fit.outliers = std::move(outliers);
+        fit.outlying_points = points.left_out;
         return fit;
       }
     }

@@ -10,6 +10,8 @@
 
 namespace limbcast::calibrate {
 
+enum class Side { kLeft, kRight };
+
 /// A pair as a source gives it, 8-bit grey.
 struct GreyPair {
   std::string name;
