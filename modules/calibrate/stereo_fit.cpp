@@ -271,20 +271,19 @@ bool folds_an_image(const StereoFit& fit) {
 
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      LensModel model, const FitParams& params) {
-  const auto fit_with = [&](Distortion distortion) {
-    return fit_without_outliers(views, board, image_size, params, distortion);
-  };
   const bool fisheye = model == LensModel::kFisheye;
-  const StereoFit fit = fit_with(fisheye ? Distortion::kFisheye : Distortion::kWithK3);
+  StereoFit fit = fit_without_outliers(views, board, image_size, params,
+                                       fisheye ? Distortion::kFisheye : Distortion::kWithK3);
   if (!folds_an_image(fit)) return fit;
-  try {
-    const StereoFit stiffer =
-        fit_with(fisheye ? Distortion::kFisheyeWithoutK3 : Distortion::kWithoutK3);
-    if (!folds_an_image(stiffer)) return stiffer;
-  } catch (const std::runtime_error&) {
-    // Too few views fit such lenses: the first ones are told, and why they must not be used.
-  }
-  return fit;
+  // The same views and points: where the boards are, the lens with all terms fits best, and what
+  // one with fewer makes of boards at the image's borders says nothing about them.
+  const Distortion without = fisheye ? Distortion::kFisheyeWithoutK3 : Distortion::kWithoutK3;
+  StereoFit stiffer = fit_pair(fit.views, board, params,
+                               fit_lenses(fit.views, board, image_size, without, params), without);
+  if (folds_an_image(stiffer)) return fit;
+  stiffer.outliers = std::move(fit.outliers);
+  stiffer.outlying_points = std::move(fit.outlying_points);
+  return stiffer;
 }
 
 }  // namespace limbcast::calibrate

@@ -45,9 +45,9 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 /// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
 /// one is an outlier, by the lenses of each camera alone or of all at once. Single points that
 /// their board's others put elsewhere are left out first (fit_good_points). Where a lens folds the
-/// image, as k3 may do beyond the boards, all of it without k3. Lenses of `model`; fisheyes by
-/// least squares in place of OpenCV's functions. Throws std::runtime_error where there are too few
-/// views.
+/// image, as k3 may do beyond the boards, these views and points again without k3. Lenses of
+/// `model`; fisheyes by least squares in place of OpenCV's functions. Throws std::runtime_error
+/// where there are too few views.
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      LensModel model = LensModel::kPinhole, const FitParams& params = {});
 

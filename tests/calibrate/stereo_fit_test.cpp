@@ -106,8 +106,17 @@ TEST(StereoFit, LeavesK3OutWhereItWouldFoldTheImageBeyondTheBoards) {
     pose.translation_m[0] *= 0.5;
     pose.translation_m[1] *= 0.5;
   }
-  const StereoFit fit = fit_stereo(project_boards(board, poses, wide), board, kVga);
+  std::vector<View> views = project_boards(board, poses, wide);
+  views[2].left.pixels[7].y += 9.0F;
+  for (cv::Point2f& pixel : views[4].right.pixels) pixel.y += 5.0F;
+  const StereoFit fit = fit_stereo(views, board, kVga);
   expect_found(fit.calibration, wide);
+  // What the lens with k3 told of the views and points holds.
+  EXPECT_EQ(fit.views.size() + 1, views.size());
+  ASSERT_EQ(fit.outliers.size(), 1U);
+  EXPECT_EQ(fit.outliers[0].name, "view_4");
+  ASSERT_EQ(fit.outlying_points.size(), 1U);
+  EXPECT_EQ(fit.outlying_points[0].view, "view_2");
   EXPECT_EQ(fit.calibration.left.distortion.at(4), 0.0);
   const Verdict verdict = judge(fit, VerdictParams{}.min_coverage);
   EXPECT_THAT(verdict.faults, IsEmpty());
