@@ -85,6 +85,7 @@ CommonPoints common_points(const BoardPoints& left, const BoardPoints& right) {
 
 bool ViewCollector::add(const GreyPair& pair) {
   check_size(pair);
+  seen_areas_.add(pair.left, pair.right);
   // Finding the points exactly takes some tenths of a second, too long for each frame of a camera.
   Reason reason = in_sequence_ ? why_wait(pair) : Reason{};
   std::optional<View> view;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "modules/calibrate/board.hpp"
+#include "modules/calibrate/seen_area.hpp"
 
 namespace limbcast::calibrate {
 
@@ -72,6 +73,8 @@ class ViewCollector {
   const std::vector<View>& views() const { return views_; }
   const std::vector<RejectedView>& rejected() const { return rejected_; }
   const cv::Size& image_size() const { return image_size_; }
+  /// By the pairs so far, of which there must be one.
+  SeenAreas seen_areas(LensModel model) const { return seen_areas_.areas(model); }
 
  private:
   /// Where a frame of a video shows the board, roughly.
@@ -90,6 +93,7 @@ class ViewCollector {
   bool in_sequence_;
   ViewParams params_;
   cv::Size image_size_;
+  SeenAreaFinder seen_areas_;
   std::optional<Glimpse> previous_;   ///< in the pair before, good or not
   std::vector<View> taken_glimpses_;  ///< one for each view of a video
   std::vector<View> views_;

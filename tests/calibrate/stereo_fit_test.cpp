@@ -252,7 +252,7 @@ TEST(Advise, AsksForNothingMoreWhenViewsAreVaried) {
   const Board board;
   const StereoFit fit =
       fit_stereo(project_boards(board, varied_poses(board, 24), true_cameras()), board, kVga);
-  for (const std::string& sentence : advise(fit, kVga))
+  for (const std::string& sentence : advise(fit, whole_images(kVga)))
     EXPECT_THAT(sentence, ::testing::Not(HasSubstr("degrees")));
 }
 
@@ -264,7 +264,7 @@ TEST(Advise, AsksForTiltDistanceAndEmptyParts) {
   fit.views = {views[0]};
   fit.figures = {fit.figures[0]};
   fit.figures[0].tilt_sideways_deg = fit.figures[0].tilt_updown_deg = 2.0;
-  const std::vector<std::string> advice = advise(fit, kVga);
+  const std::vector<std::string> advice = advise(fit, whole_images(kVga));
   EXPECT_THAT(advice,
               Contains(HasSubstr("turn the board left and right by 20 to 45 degrees (0 of")));
   EXPECT_THAT(advice, Contains(HasSubstr("tip the board up and down")));
@@ -280,7 +280,7 @@ class Complete : public ::testing::Test {
     return project_boards(board_, poses, true_cameras());
   }
   bool complete_with(const std::vector<View>& views) const {
-    return complete(views, board_, kVga, LensModel::kPinhole, params_);
+    return complete(views, board_, whole_images(kVga), LensModel::kPinhole, params_);
   }
   /// Large, so that it stands far away: then both cameras see it at the image's edge too.
   Board board_ = [] {
