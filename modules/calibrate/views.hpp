@@ -8,6 +8,7 @@
 
 #include "modules/calibrate/board.hpp"
 #include "modules/calibrate/seen_area.hpp"
+#include "modules/calibrate/sharpness.hpp"
 
 namespace limbcast::calibrate {
 
@@ -42,9 +43,8 @@ struct ViewParams {
   /// Points that both images must show. A pose has 6 unknowns and 4 points give it; more tell
   /// lens and error apart.
   int min_points = 12;
-  /// Edges of a sharp picture are up to about 3 px wide, as cv::estimateChessboardSharpness says;
-  /// OpenCV's own example pairs reach 3.4. Wider: motion or focus.
-  double max_edge_width_px = 5.0;
+  /// Of the edges on the board.
+  SharpnessParams sharpness;
   /// A shot whose points stand within this of those of one before adds nothing but its noise [px]:
   /// a copy, or a board on a stand. Of a board that is held the points move by whole pixels.
   double min_shot_shift_px = 0.5;
