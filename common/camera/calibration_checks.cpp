@@ -43,6 +43,13 @@ void check_square(const YamlReader& yaml, const std::string& key, double fx, dou
             "a camera has about the same for both; calibrate again");
 }
 
+/// A number that nobody wrote is 0; no lens' axis meets the image's border to the last digit.
+void check_written(const YamlReader& yaml, const std::string& key, double cx, double cy) {
+  if (cx != 0.0 && cy != 0.0) return;
+  yaml.fail(key, "has its principal point at (" + text_of(cx) + ", " + text_of(cy) + ")",
+            "neither may be exactly 0, which is written where it is not known; calibrate again");
+}
+
 /// Where a ray comes out by the radial part of OpenCV's models, that leaves at this tangent to the
 /// axis [focal lengths].
 double distorted(const LensCalibration& lens, double tangent) {
@@ -80,6 +87,7 @@ PinholeCamera checked_pinhole(const YamlReader& yaml, const std::string& key, in
     yaml.fail(key, "is no camera matrix", "must be fx 0 cx, 0 fy cy, 0 0 1");
   }
   check_square(yaml, key, K(0, 0), K(1, 1));
+  check_written(yaml, key, K(0, 2), K(1, 2));
   if (K(0, 2) < 0.0 || K(0, 2) >= width || K(1, 2) < 0.0 || K(1, 2) >= height) {
     yaml.fail(key,
               "has its principal point (" + text_of(K(0, 2)) + ", " + text_of(K(1, 2)) +
@@ -161,6 +169,7 @@ void check_rectified(const YamlReader& yaml, const std::string& key,
   if (P(0, 0) <= 0.0 || P(1, 1) <= 0.0)
     yaml.fail(key, "has no focal length > 0", "calibrate again");
   check_square(yaml, key, P(0, 0), P(1, 1));
+  check_written(yaml, key, P(0, 2), P(1, 2));
   if (differs(P(0, 0), camera.fx, kLargestRectifiedZoom)) {
     yaml.fail(key,
               "has a focal length of " + text_of(P(0, 0)) + " px, the lens " + text_of(camera.fx),

@@ -176,23 +176,6 @@ cv::Mat draw_charuco(const Board& board, int square_px) {
   return image;
 }
 
-/// Squares whose sides are shorter than this [px] OpenCV does not judge: it says so on stdout and
-/// gives this for a width.
-constexpr double kLeastSharpnessSide_px = 10.0, kNoSharpness = 9999.0;
-
-/// The mean distance of a point and the one `step` after it: 1 along the rows, else along the
-/// columns [px].
-double mean_side_px(const std::vector<cv::Point2f>& lattice, const Board& board, int step) {
-  double sum = 0.0;
-  int count = 0;
-  for (int id = 0; id + step < board.num_points(); ++id) {
-    if (step == 1 && id % board.columns == board.columns - 1) continue;
-    sum += cv::norm(lattice[id + step] - lattice[id]);
-    ++count;
-  }
-  return sum / count;
-}
-
 /// How well two lattices lie the same way round: the sum over pairs of points on opposite sides of
 /// the middle of what their lines have in common [px^2].
 double agreement_of(const std::vector<cv::Point2f>& a, const std::vector<cv::Point2f>& b) {
@@ -292,23 +275,6 @@ void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& r
     turned = turns == 4 ? turned_by_quarter(turned, board.columns)
                         : std::vector<cv::Point2f>(turned.rbegin(), turned.rend());
   }
-}
-
-std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
-                                    const BoardPoints& points) {
-  const bool complete = static_cast<int>(points.ids.size()) == board.num_points();
-  if (board.kind != BoardKind::kChessboard || !complete) return std::nullopt;
-  constexpr float kRise = 0.8F;
-  std::optional<double> widest_px;
-  // Motion blurs the edges across it only.
-  for (const bool between_columns : {false, true}) {
-    const int step = between_columns ? 1 : board.columns;
-    if (mean_side_px(points.pixels, board, step) < kLeastSharpnessSide_px) continue;
-    const double width_px = cv::estimateChessboardSharpness(grey, lattice(board), points.pixels,
-                                                            kRise, between_columns)[0];
-    if (width_px < kNoSharpness) widest_px = std::max(widest_px.value_or(0.0), width_px);
-  }
-  return widest_px;
 }
 
 cv::Mat draw_board(const Board& board, int square_px) {

@@ -57,12 +57,6 @@ std::optional<BoardPoints> glimpse_board(const cv::Mat& grey, const Board& board
 /// side: gives `right` the numbering of `left`, as both cameras of a pair stand the same way up.
 void align_numbering(const Board& board, const BoardPoints& left, BoardPoints& right);
 
-/// Width of the edges between the squares [px], from 10 to 90 % of their contrast, of those between
-/// columns or between rows, whichever are wider; nothing where not all corners are seen, the board
-/// has no squares or they are too small in the image.
-std::optional<double> edge_width_px(const cv::Mat& grey, const Board& board,
-                                    const BoardPoints& points);
-
 /// The board as it is printed, 8-bit grey, `square_px` for each square, with a white
 /// margin of half a square.
 cv::Mat draw_board(const Board& board, int square_px);

@@ -6,7 +6,6 @@
 #include "common/median.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
 #include "modules/reconstructor/rectification.hpp"
-#include "modules/reconstructor/rectifier.hpp"
 #include "modules/reconstructor/row_differences.hpp"
 
 namespace limbcast::calibrate {
@@ -73,9 +72,9 @@ bool CalibrationCheck::add_board(const GreyPair& pair) {
 }
 
 void CalibrationCheck::add_features(const GreyPair& pair) {
-  const reconstructor::RectifiedPair images =
-      reconstructor::Rectifier(calibration_).rectify(pair.left, pair.right);
-  const std::vector<double> differences_px = reconstructor::row_differences_px(images);
+  if (!rectifier_) rectifier_.emplace(calibration_);
+  const std::vector<double> differences_px =
+      reconstructor::row_differences_px(rectifier_->rectify(pair.left, pair.right));
   result_.row_differences_px.insert(result_.row_differences_px.end(), differences_px.begin(),
                                     differences_px.end());
 }

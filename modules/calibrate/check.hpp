@@ -6,6 +6,7 @@
 
 #include "common/camera/calibration.hpp"
 #include "modules/calibrate/views.hpp"
+#include "modules/reconstructor/rectifier.hpp"
 
 namespace limbcast::calibrate {
 
@@ -53,6 +54,8 @@ class CalibrationCheck {
   Board board_;
   CheckParams params_;
   CheckResult result_;
+  /// Made for the first pair that shows no board: its maps take as long as some pairs.
+  std::optional<reconstructor::Rectifier> rectifier_;
 };
 
 }  // namespace limbcast::calibrate

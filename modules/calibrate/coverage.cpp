@@ -18,15 +18,30 @@ constexpr std::array<const char*, kRegions* kRegions> kRegionNames = {
     "top left", "top",         "top right", "left",        "middle",
     "right",    "bottom left", "bottom",    "bottom right"};
 
-/// Names of the regions of the image where no board was.
-std::vector<std::string> empty_regions(const cv::Mat& covered, double min_share) {
+const cv::Mat& of(const SeenAreas& seen, Side side) {
+  return side == Side::kLeft ? seen.left : seen.right;
+}
+
+/// Of the pixels that the lens sees.
+double share_of(const cv::Mat& covered, const cv::Mat& seen) {
+  return cv::countNonZero(covered & seen) / static_cast<double>(cv::countNonZero(seen));
+}
+
+/// Names of the regions of what the lens sees where no board was.
+std::vector<std::string> empty_regions(const cv::Mat& covered, const cv::Mat& seen,
+                                       double min_share) {
+  const cv::Rect all = cv::boundingRect(seen);
   std::vector<std::string> names;
   for (int i = 0; i < kRegions * kRegions; ++i) {
-    const int left = covered.cols * (i % kRegions) / kRegions;
-    const int right = covered.cols * (i % kRegions + 1) / kRegions;
-    const int top = covered.rows * (i / kRegions) / kRegions;
-    const int bottom = covered.rows * (i / kRegions + 1) / kRegions;
-    if (share_of(covered({left, top, right - left, bottom - top})) < min_share)
+    const cv::Point begin(all.x + all.width * (i % kRegions) / kRegions,
+                          all.y + all.height * (i / kRegions) / kRegions);
+    const cv::Point end(all.x + all.width * (i % kRegions + 1) / kRegions,
+                        all.y + all.height * (i / kRegions + 1) / kRegions);
+    const cv::Rect region(begin, end);
+    // Boards have straight sides and must be whole in both images: of a region that the image
+    // circle cuts they reach the less, the less of it there is.
+    const double lit_share = cv::countNonZero(seen(region)) / static_cast<double>(region.area());
+    if (share_of(covered(region), seen(region)) < min_share * lit_share)
       names.emplace_back(kRegionNames[i]);
   }
   return names;
@@ -79,22 +94,22 @@ cv::Mat covered_area(const std::vector<View>& views, Side side, const cv::Size& 
   return covered;
 }
 
-double share_of(const cv::Mat& covered) {
-  return cv::countNonZero(covered) / static_cast<double>(covered.total());
+double coverage(const std::vector<View>& views, Side side, const SeenAreas& seen) {
+  const cv::Mat& area = of(seen, side);
+  return share_of(covered_area(views, side, area.size()), area);
 }
 
-double least_coverage(const std::vector<View>& views, const cv::Size& image_size) {
-  return std::min(share_of(covered_area(views, Side::kLeft, image_size)),
-                  share_of(covered_area(views, Side::kRight, image_size)));
+double least_coverage(const std::vector<View>& views, const SeenAreas& seen) {
+  return std::min(coverage(views, Side::kLeft, seen), coverage(views, Side::kRight, seen));
 }
 
-std::vector<std::string> advise_places(const std::vector<View>& views, const cv::Size& image_size,
+std::vector<std::string> advise_places(const std::vector<View>& views, const SeenAreas& seen,
                                        const AdviceParams& params) {
   std::vector<std::string> advice;
   for (const auto& [side, name] :
        {std::pair(Side::kLeft, "left"), std::pair(Side::kRight, "right")}) {
-    const std::vector<std::string> empty =
-        empty_regions(covered_area(views, side, image_size), params.min_region_share);
+    const std::vector<std::string> empty = empty_regions(
+        covered_area(views, side, of(seen, side).size()), of(seen, side), params.min_region_share);
     if (!empty.empty())
       advice.push_back(formatted("show the board in these parts of the %s image: ", name) +
                        joined(empty));
@@ -102,23 +117,22 @@ std::vector<std::string> advise_places(const std::vector<View>& views, const cv:
   return advice;
 }
 
-std::vector<std::string> advise(const StereoFit& fit, const cv::Size& image_size,
+std::vector<std::string> advise(const StereoFit& fit, const SeenAreas& seen,
                                 const AdviceParams& params) {
-  std::vector<std::string> advice = advise_places(fit.views, image_size, params);
+  std::vector<std::string> advice = advise_places(fit.views, seen, params);
   advise_tilt(fit.figures, params, advice);
   advise_distance(fit.figures, params, advice);
   return advice;
 }
 
-bool complete(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
+bool complete(const std::vector<View>& views, const Board& board, const SeenAreas& seen,
               LensModel model, const CompletionParams& params) {
   const auto taken = static_cast<int>(views.size());
   if (taken >= params.most_views) return true;
   // What needs no fit comes first: a fit takes seconds.
-  if (taken < params.enough_views || !advise_places(views, image_size).empty()) return false;
-  const StereoFit fit = fit_stereo(views, board, image_size, model);
-  return advise(fit, image_size).empty() &&
-         judge(fit, least_coverage(fit.views, image_size)).faults.empty();
+  if (taken < params.enough_views || !advise_places(views, seen).empty()) return false;
+  const StereoFit fit = fit_stereo(views, board, seen.left.size(), model);
+  return advise(fit, seen).empty() && judge(fit, least_coverage(fit.views, seen)).faults.empty();
 }
 
 }  // namespace limbcast::calibrate

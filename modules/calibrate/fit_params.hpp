@@ -2,7 +2,7 @@
 
 namespace limbcast::calibrate {
 
-/// When a view is an outlier, and when a fit ends.
+/// When a view or a point is an outlier, and when a fit ends.
 struct FitParams {
   /// Views without which nothing is computed. Three fix the intrinsics of a lens without
   /// distortion (Zhang 2000); with five terms of distortion and noise five are the least.
@@ -11,6 +11,18 @@ struct FitParams {
   /// than so many pixels. Wrong points are off by whole pixels; by eye on OpenCV's example pairs,
   /// whose good views reach twice the median and 0.5 px.
   double outlier_factor = 3.0, outlier_px = 0.6;
+  /// A point is outlying where it stands farther from where the others of its board put it than so
+  /// many times their median distance, and than so many pixels. The points of OpenCV's example
+  /// pairs are off by up to 3.8 medians and 0.5 px, of rendered boards by 3.4 and 0.4; where a
+  /// point in every second view was off by 3 px the focal length was by 0.37 %. Less leaves good
+  /// points out and hides that a lens or a board is none such.
+  double outlying_factor = 6.0, outlying_px = 1.0;
+  /// At most this share of the points that an image shows of the board, but one in any case; where
+  /// more are off it is the view that is wrong. Five of a board of 9 x 6.
+  double max_outlying_share = 0.1;
+  /// How often the lenses are fitted without the points that are outlying by those before. Mostly
+  /// the second time finds the same as the first.
+  int max_point_rounds = 4;
   /// Views are compared by the lenses that each camera alone has found where the standard deviation
   /// of their focal lengths is no more than this share of them, and a view may be off by so many
   /// pixels more for each per cent of it. On rendered boards of which good views were off by 1.8 px

@@ -109,10 +109,10 @@ void check_exists(const std::string& source) {
     throw InputError(source + ": does not exist; give a folder, log, video or camera to --source");
 }
 
-/// Before anything is measured by it.
+/// Before anything is measured by it; without the maps, which whoever measures makes.
 StereoCalibration checked(const StereoCalibration& calibration, const std::string& file) {
   try {
-    const reconstructor::Rectifier rectifier(calibration);
+    reconstructor::usable_rectification(calibration);
   } catch (const std::invalid_argument& error) {
     throw InputError(file + ": " + error.what());
   }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kImageWidth_px = 640, kMargin_px = 40, kChartHeight_px = 220;
 const cv::Scalar kPaper(255, 255, 255), kInk(40, 40, 40), kCovered(225, 240, 225),
-    kGrid(220, 220, 220);
+    kDark(200, 200, 200), kGrid(220, 220, 220);
 const cv::Scalar kLeftColor(200, 120, 30), kRightColor(40, 110, 230), kEpipolarColor(60, 160, 60);
 
 void write_words(cv::Mat& canvas, const std::string& words, const cv::Point& place,
@@ -20,13 +20,17 @@ void write_words(cv::Mat& canvas, const std::string& words, const cv::Point& pla
   cv::putText(canvas, words, place, cv::FONT_HERSHEY_SIMPLEX, kSize, color, 1, cv::LINE_AA);
 }
 
-/// One camera's image: where boards were, and each of their points.
-void draw_coverage(cv::Mat canvas, const StereoFit& fit, Side side, const cv::Size& image_size) {
-  cv::Mat covered;
-  cv::resize(covered_area(fit.views, side, image_size), covered, canvas.size(), 0.0, 0.0,
-             cv::INTER_NEAREST);
-  canvas.setTo(kCovered, covered);
-  const double scale = static_cast<double>(canvas.cols) / image_size.width;
+void paint(cv::Mat& canvas, const cv::Scalar& color, const cv::Mat& area) {
+  cv::Mat resized;
+  cv::resize(area, resized, canvas.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  canvas.setTo(color, resized);
+}
+
+/// One camera's image: where the lens shows nothing, where boards were, and each of their points.
+void draw_coverage(cv::Mat canvas, const StereoFit& fit, Side side, const cv::Mat& seen) {
+  paint(canvas, kDark, ~seen);
+  paint(canvas, kCovered, covered_area(fit.views, side, seen.size()));
+  const double scale = static_cast<double>(canvas.cols) / seen.cols;
   const cv::Scalar& color = side == Side::kLeft ? kLeftColor : kRightColor;
   for (const View& view : fit.views) {
     for (const cv::Point2f& pixel : (side == Side::kLeft ? view.left : view.right).pixels)
@@ -89,9 +93,8 @@ double largest_error_px(const std::vector<ViewFit>& figures) {
 
 }  // namespace
 
-cv::Mat draw_report(const StereoFit& fit) {
+cv::Mat draw_report(const StereoFit& fit, const SeenAreas& seen) {
   const PinholeCamera& camera = fit.calibration.left.camera;
-  const cv::Size image_size(camera.width, camera.height);
   const int image_height =
       cvRound(static_cast<double>(kImageWidth_px) * camera.height / camera.width);
   const int chart_top = image_height + 3 * kMargin_px;
@@ -101,8 +104,9 @@ cv::Mat draw_report(const StereoFit& fit) {
 
   for (const auto& [side, from, name] : {std::tuple(Side::kLeft, kMargin_px, "left"),
                                          std::tuple(Side::kRight, right_from, "right")}) {
-    draw_coverage(canvas({from, kMargin_px, kImageWidth_px, image_height}), fit, side, image_size);
-    const double share = share_of(covered_area(fit.views, side, image_size));
+    draw_coverage(canvas({from, kMargin_px, kImageWidth_px, image_height}), fit, side,
+                  side == Side::kLeft ? seen.left : seen.right);
+    const double share = coverage(fit.views, side, seen);
     write_words(canvas, formatted("%s image: boards cover %.0f %%", name, 100.0 * share),
                 {from, kMargin_px - 12});
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "modules/calibrate/seen_area.hpp"
 #include "modules/calibrate/stereo_fit.hpp"
 
 namespace limbcast::calibrate {
@@ -12,11 +13,13 @@ namespace limbcast::calibrate {
 std::string view_table(const std::vector<ViewFit>& figures);
 /// A line for each pair that was not used, with the reason.
 std::string rejected_table(const std::vector<RejectedView>& rejected);
-/// What was found: errors, focal lengths, baseline.
-std::string summary_text(const StereoFit& fit);
+/// A line for each image of which points were left out: how many, and how far the farthest was off.
+std::string left_out_table(const std::vector<OutlyingPoint>& left_out);
+/// What was found: errors, focal lengths, how much of what the cameras see was covered, baseline.
+std::string summary_text(const StereoFit& fit, const SeenAreas& seen);
 
 /// Both images with the boards' points and where they stood, over the errors of each view, 8-bit
 /// BGR.
-cv::Mat draw_report(const StereoFit& fit);
+cv::Mat draw_report(const StereoFit& fit, const SeenAreas& seen);
 
 }  // namespace limbcast::calibrate

@@ -69,13 +69,13 @@ class Hints {
   std::chrono::steady_clock::time_point told_at_ = std::chrono::steady_clock::now();
 };
 
-void tell_taken(const ViewCollector& collector) {
+void tell_taken(const ViewCollector& collector, const SeenAreas& seen) {
   const std::vector<View>& views = collector.views();
   config::log(
       config::LogLevel::kInfo,
       formatted("%s: view %zu taken, boards cover %.0f %% of the image", views.back().name.c_str(),
-                views.size(), 100.0 * least_coverage(views, collector.image_size())));
-  for (const std::string& sentence : advise_places(views, collector.image_size()))
+                views.size(), 100.0 * least_coverage(views, seen)));
+  for (const std::string& sentence : advise_places(views, seen))
     config::log(config::LogLevel::kInfo, sentence);
 }
 
@@ -100,9 +100,9 @@ ViewCollector collect_from_video(const Options& options, const Board& board) {
       hints.tell(collector.rejected().back());
       return true;
     }
-    tell_taken(collector);
-    return !complete(collector.views(), board, collector.image_size(), model_of(options),
-                     options.completion);
+    const SeenAreas seen = collector.seen_areas(model_of(options));
+    tell_taken(collector, seen);
+    return !complete(collector.views(), board, seen, model_of(options), options.completion);
   });
   return collector;
 }
@@ -112,8 +112,8 @@ void print_advice(const std::vector<std::string>& advice) {
 }
 
 /// True: the result may be used; else it says why not.
-bool accept(const StereoFit& fit, const cv::Size& size) {
-  const Verdict verdict = judge(fit, least_coverage(fit.views, size));
+bool accept(const StereoFit& fit, const SeenAreas& seen) {
+  const Verdict verdict = judge(fit, least_coverage(fit.views, seen));
   for (const std::string& warning : verdict.warnings) print("warning: " + warning + "\n");
   for (const std::string& fault : verdict.faults) print("refused: " + fault + "\n");
   return verdict.faults.empty();
@@ -125,18 +125,20 @@ bool calibrate(const Options& options) {
                                       ? collect_from_video(options, board)
                                       : collect_shots(options.source, board);
   check_enough(collector.views(), collector.rejected());
+  const SeenAreas seen = collector.seen_areas(model_of(options));
   const StereoFit fit =
       fit_stereo(collector.views(), board, collector.image_size(), model_of(options));
-  print(rejected_table(fit.outliers) + view_table(fit.figures) + summary_text(fit));
-  print_advice(advise(fit, collector.image_size()));
-  const bool accepted = accept(fit, collector.image_size());
+  print(rejected_table(fit.outliers) + left_out_table(fit.outlying_points) +
+        view_table(fit.figures) + summary_text(fit, seen));
+  print_advice(advise(fit, seen));
+  const bool accepted = accept(fit, seen);
   if (accepted) {
     check_not_told_to_end();
     write_stereo_calibration(options.output, fit.calibration);
     print("written: " + options.output + "\n");
   }
   // Last: a picture that cannot be written costs no calibration.
-  if (!options.picture.empty()) write_picture(options.picture, draw_report(fit));
+  if (!options.picture.empty()) write_picture(options.picture, draw_report(fit, seen));
   return accepted;
 }
 

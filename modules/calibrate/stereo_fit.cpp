@@ -236,7 +236,7 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 
 namespace {
 
-/// Without the views that are outliers.
+/// Without the views and points that are outliers.
 StereoFit fit_without_outliers(const std::vector<View>& views, const Board& board,
                                const cv::Size& image_size, const FitParams& params,
                                Distortion distortion) {
@@ -244,15 +244,16 @@ StereoFit fit_without_outliers(const std::vector<View>& views, const Board& boar
   std::vector<RejectedView> outliers;
   while (true) {
     check_enough(kept, outliers, params);
-    const Lenses lenses = fit_lenses(kept, board, image_size, distortion, params);
+    const auto [points, lenses] = fit_good_points(kept, board, image_size, distortion, params);
     Outlier outlier;
     if (focal_sigma(lenses) <= params.known_focal_sigma)
-      outlier = most_disagreeing_view(kept, board, lenses, params);
+      outlier = most_disagreeing_view(points.views, board, lenses, params);
     if (outlier.excess <= 1.0) {
-      StereoFit fit = fit_pair(kept, board, params, lenses, distortion);
+      StereoFit fit = fit_pair(points.views, board, params, lenses, distortion);
       outlier = worst_view(fit.figures, params);
       if (outlier.excess <= 1.0) {
         fit.outliers = std::move(outliers);
+        fit.outlying_points = points.left_out;
         return fit;
       }
     }
@@ -270,20 +271,19 @@ bool folds_an_image(const StereoFit& fit) {
 
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      LensModel model, const FitParams& params) {
-  const auto fit_with = [&](Distortion distortion) {
-    return fit_without_outliers(views, board, image_size, params, distortion);
-  };
   const bool fisheye = model == LensModel::kFisheye;
-  const StereoFit fit = fit_with(fisheye ? Distortion::kFisheye : Distortion::kWithK3);
+  StereoFit fit = fit_without_outliers(views, board, image_size, params,
+                                       fisheye ? Distortion::kFisheye : Distortion::kWithK3);
   if (!folds_an_image(fit)) return fit;
-  try {
-    const StereoFit stiffer =
-        fit_with(fisheye ? Distortion::kFisheyeWithoutK3 : Distortion::kWithoutK3);
-    if (!folds_an_image(stiffer)) return stiffer;
-  } catch (const std::runtime_error&) {
-    // Too few views fit such lenses: the first ones are told, and why they must not be used.
-  }
-  return fit;
+  // The same views and points: where the boards are, the lens with all terms fits best, and what
+  // one with fewer makes of boards at the image's borders says nothing about them.
+  const Distortion without = fisheye ? Distortion::kFisheyeWithoutK3 : Distortion::kWithoutK3;
+  StereoFit stiffer = fit_pair(fit.views, board, params,
+                               fit_lenses(fit.views, board, image_size, without, params), without);
+  if (folds_an_image(stiffer)) return fit;
+  stiffer.outliers = std::move(fit.outliers);
+  stiffer.outlying_points = std::move(fit.outlying_points);
+  return stiffer;
 }
 
 }  // namespace limbcast::calibrate

@@ -6,6 +6,7 @@
 #include "common/camera/calibration.hpp"
 #include "modules/calibrate/fit_params.hpp"
 #include "modules/calibrate/lens_fit.hpp"
+#include "modules/calibrate/outlying_points.hpp"
 #include "modules/calibrate/views.hpp"
 
 namespace limbcast::calibrate {
@@ -26,9 +27,10 @@ struct ViewFit {
 
 struct StereoFit {
   StereoCalibration calibration;  ///< with rectification
-  std::vector<View> views;        ///< that it rests on
+  std::vector<View> views;        ///< that it rests on, without outlying points
   std::vector<ViewFit> figures;   ///< one for each of them
   std::vector<RejectedView> outliers;
+  std::vector<OutlyingPoint> outlying_points;
   double reprojection_px = 0.0, epipolar_px = 0.0;  ///< RMS of all points
   LensUncertainty left, right;
   Distortion distortion = Distortion::kWithK3;  ///< that was sought
@@ -41,10 +43,11 @@ void check_enough(const std::vector<View>& views, const std::vector<RejectedView
 
 /// Lenses and pose of a stereo pair from views of a board (Zhang 2000; cv::calibrateCamera for each
 /// camera, then cv::stereoCalibrate for all at once), again without the worst view as long as that
-/// one is an outlier, by the lenses of each camera alone or of all at once. Where a lens folds the
-/// image, as k3 may do beyond the boards, all of it without k3. Lenses of `model`; fisheyes by
-/// least squares in place of OpenCV's functions. Throws std::runtime_error where there are too few
-/// views.
+/// one is an outlier, by the lenses of each camera alone or of all at once. Single points that
+/// their board's others put elsewhere are left out first (fit_good_points). Where a lens folds the
+/// image, as k3 may do beyond the boards, these views and points again without k3. Lenses of
+/// `model`; fisheyes by least squares in place of OpenCV's functions. Throws std::runtime_error
+/// where there are too few views.
 StereoFit fit_stereo(const std::vector<View>& views, const Board& board, const cv::Size& image_size,
                      LensModel model = LensModel::kPinhole, const FitParams& params = {});
 

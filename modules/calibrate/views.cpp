@@ -85,6 +85,7 @@ CommonPoints common_points(const BoardPoints& left, const BoardPoints& right) {
 
 bool ViewCollector::add(const GreyPair& pair) {
   check_size(pair);
+  seen_areas_.add(pair.left, pair.right);
   // Finding the points exactly takes some tenths of a second, too long for each frame of a camera.
   Reason reason = in_sequence_ ? why_wait(pair) : Reason{};
   std::optional<View> view;
@@ -156,11 +157,11 @@ Reason ViewCollector::find_view(const GreyPair& pair, std::optional<View>& view)
   view = View{pair.name, std::move(*left), std::move(*right)};
   for (const auto& [image, points, side] : {std::tuple(&pair.left, &view->left, "left"),
                                             std::tuple(&pair.right, &view->right, "right")}) {
-    const std::optional<double> width_px = edge_width_px(*image, board_, *points);
-    if (width_px && *width_px > params_.max_edge_width_px)
+    const std::optional<EdgeWidth> edge = widest_edge(*image, board_, *points, params_.sharpness);
+    if (edge && edge->width_px > edge->limit_px)
       return {"blurred", formatted("blurred: edges in the %s image are %.1f px wide (limit %.1f): "
                                    "motion or focus",
-                                   side, *width_px, params_.max_edge_width_px)};
+                                   side, edge->width_px, edge->limit_px)};
   }
   const auto num_common = static_cast<int>(common_points(view->left, view->right).ids.size());
   if (num_common < params_.min_points)

@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "modules/calibrate/board.hpp"
+#include "modules/calibrate/seen_area.hpp"
+#include "modules/calibrate/sharpness.hpp"
 
 namespace limbcast::calibrate {
+
+enum class Side { kLeft, kRight };
 
 /// A pair as a source gives it, 8-bit grey.
 struct GreyPair {
@@ -39,9 +43,8 @@ struct ViewParams {
   /// Points that both images must show. A pose has 6 unknowns and 4 points give it; more tell
   /// lens and error apart.
   int min_points = 12;
-  /// Edges of a sharp picture are up to about 3 px wide, as cv::estimateChessboardSharpness says;
-  /// OpenCV's own example pairs reach 3.4. Wider: motion or focus.
-  double max_edge_width_px = 5.0;
+  /// Of the edges on the board.
+  SharpnessParams sharpness;
   /// A shot whose points stand within this of those of one before adds nothing but its noise [px]:
   /// a copy, or a board on a stand. Of a board that is held the points move by whole pixels.
   double min_shot_shift_px = 0.5;
@@ -70,6 +73,8 @@ class ViewCollector {
   const std::vector<View>& views() const { return views_; }
   const std::vector<RejectedView>& rejected() const { return rejected_; }
   const cv::Size& image_size() const { return image_size_; }
+  /// By the pairs so far, of which there must be one.
+  SeenAreas seen_areas(LensModel model) const { return seen_areas_.areas(model); }
 
  private:
   /// Where a frame of a video shows the board, roughly.
@@ -88,6 +93,7 @@ class ViewCollector {
   bool in_sequence_;
   ViewParams params_;
   cv::Size image_size_;
+  SeenAreaFinder seen_areas_;
   std::optional<Glimpse> previous_;   ///< in the pair before, good or not
   std::vector<View> taken_glimpses_;  ///< one for each view of a video
   std::vector<View> views_;

@@ -24,23 +24,26 @@ void check_shows_something(const Rectification& rectification, const PinholeCame
                 focal_px, lens.fx));
 }
 
-/// Baseline of P2 = [f 0 cx -f*B; ...]; throws where the pair is no left and right one.
-double checked_baseline_m(const Rectification& rectification) {
+/// Of P2 = [f 0 cx -f*B; ...].
+double baseline_of(const Rectification& rectification) {
+  return -rectification.P2(0, 3) / rectification.P2(0, 0);
+}
+
+/// Throws where the pair is no left and right one.
+void check_baseline(const Rectification& rectification) {
   const double focal_px = rectification.P2(0, 0);
   if (!(focal_px > 0.0)) throw std::invalid_argument("calibration: focal length in P2 must be > 0");
-  const double baseline_m = -rectification.P2(0, 3) / focal_px;
   std::ostringstream text;
   if (std::abs(rectification.P2(1, 3)) > std::abs(rectification.P2(0, 3))) {
     text << "calibration: the cameras stand above one another (P2 says "
          << -rectification.P2(1, 3) / focal_px << " m); only side by side is supported";
     throw std::invalid_argument(text.str());
   }
-  if (!(baseline_m > 0.0)) {
-    text << "calibration: the baseline is " << baseline_m
+  if (!(baseline_of(rectification) > 0.0)) {
+    text << "calibration: the baseline is " << baseline_of(rectification)
          << " m, must be > 0: left and right are swapped";
     throw std::invalid_argument(text.str());
   }
-  return baseline_m;
 }
 
 bool is_identity(const LensCalibration& lens, const Eigen::Matrix3d& rotation,
@@ -79,14 +82,21 @@ void check_size(const cv::Mat& image, const PinholeCamera& lens, const char* sid
 
 }  // namespace
 
+Rectification usable_rectification(const StereoCalibration& calibration) {
+  const PinholeCamera& lens = calibration.left.camera;
+  if (lens.width <= 0 || lens.height <= 0)
+    throw std::invalid_argument("calibration: image size must be > 0");
+  Rectification rectification =
+      calibration.rectification ? *calibration.rectification : compute_rectification(calibration);
+  check_shows_something(rectification, lens);
+  check_baseline(rectification);
+  return rectification;
+}
+
 Rectifier::Rectifier(const StereoCalibration& calibration, double image_scale)
     : lens_left_(calibration.left.camera), lens_right_(calibration.right.camera) {
-  if (lens_left_.width <= 0 || lens_left_.height <= 0)
-    throw std::invalid_argument("calibration: image size must be > 0");
-  const Rectification rectification =
-      calibration.rectification ? *calibration.rectification : compute_rectification(calibration);
-  check_shows_something(rectification, lens_left_);
-  baseline_m_ = checked_baseline_m(rectification);
+  const Rectification rectification = usable_rectification(calibration);
+  baseline_m_ = baseline_of(rectification);
   const PinholeCamera full{lens_left_.width,       lens_left_.height,      rectification.P1(0, 0),
                            rectification.P1(1, 1), rectification.P1(0, 2), rectification.P1(1, 2)};
   camera_ = scaled(full, image_scale);

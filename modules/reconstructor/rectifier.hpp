@@ -12,15 +12,18 @@ struct RectifiedPair {
   cv::Mat left, right;
 };
 
+/// The rectification of the calibration, or the one that is computed (compute_rectification).
+/// Throws std::invalid_argument, in one line, where the calibration is unusable, e.g. left and
+/// right swapped.
+Rectification usable_rectification(const StereoCalibration& calibration);
+
 /// Turns the images of a calibrated pair so that corresponding points stand in the same row.
 ///
-/// Takes the rectification of the calibration, or computes it (compute_rectification). A pair that
-/// is rectified already is handed through without resampling.
+/// A pair that is rectified already is handed through without resampling.
 class Rectifier {
  public:
   /// `image_scale` (0, 1]: the rectified images are this much smaller than the camera's.
-  /// Throws std::invalid_argument, in one line, where the calibration is unusable, e.g. left and
-  /// right swapped.
+  /// Throws as usable_rectification.
   explicit Rectifier(const StereoCalibration& calibration, double image_scale = 1.0);
 
   /// Throws std::invalid_argument where the images' size is not the calibration's.

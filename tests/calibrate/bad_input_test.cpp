@@ -104,7 +104,7 @@ TEST(CalibrateProgram, RefusesACalibrationByWhichRectifiedImagesShowNothing) {
   const TemporaryFolder folder;
   write_pair(folder, picture_of_wall("a", {640, 480}));
   StereoCalibration cameras = true_cameras();
-  cameras.left.camera.cx = cameras.right.camera.cx = 0.0;
+  cameras.left.camera.cx = cameras.right.camera.cx = 0.01;
   cameras.left.distortion = cameras.right.distortion = {};
   const std::string file = folder / "any.yml";
   write_stereo_calibration(file, cameras);

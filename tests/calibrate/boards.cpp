@@ -1,6 +1,8 @@
 #include "tests/calibrate/boards.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -115,6 +117,37 @@ bool is_whole(const Board& board, const BoardPose& pose, const StereoCalibration
          board.num_points();
 }
 
+/// Is that all within the image circles of both fisheyes?
+bool is_lit(const Board& board, const BoardPose& pose) {
+  const StereoCalibration cameras = fisheye_cameras();
+  const View view = project_board(board, pose, cameras, "");
+  const auto is_inside = [](const BoardPoints& points, const PinholeCamera& camera) {
+    return std::all_of(points.pixels.begin(), points.pixels.end(), [&](const cv::Point2f& pixel) {
+      return std::hypot(pixel.x - camera.cx, pixel.y - camera.cy) < kImageCircle_px;
+    });
+  };
+  return is_whole(board, pose, cameras) && is_inside(view.left, cameras.left.camera) &&
+         is_inside(view.right, cameras.right.camera);
+}
+
+/// Up and down, and to either side, in turns.
+Eigen::AngleAxisd tilted(double angle_rad, int count) {
+  const Eigen::Vector3d axis = count % 4 < 2 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  return Eigen::AngleAxisd(count % 2 == 0 ? angle_rad : -angle_rad, axis);
+}
+
+/// The board's middle stands where `turn` takes the axis of a camera between both, so far away; the
+/// board faces it but for `roll` about its normal and `tilt`.
+BoardPose pose_in_direction(const Board& board, const Eigen::AngleAxisd& turn,
+                            double distance_squares, double roll, const Eigen::AngleAxisd& tilt) {
+  const Eigen::Vector3d middle_m =
+      distance_squares * board.square_m * (turn * Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd turned(turn * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()) * tilt);
+  const Eigen::Vector3d rotation = turned.angle() * turned.axis();
+  return pose_about_middle(board, {rotation.x(), rotation.y(), rotation.z()},
+                           {middle_m.x() + 0.06, middle_m.y(), middle_m.z()});
+}
+
 }  // namespace
 
 StereoCalibration true_cameras() {
@@ -150,22 +183,51 @@ std::vector<BoardPose> poses_around(const Board& board) {
   for (const double distance_squares : {9.0, 13.0}) {
     for (const double updown : {-0.55, 0.0, 0.55}) {
       for (const double sideways : {-0.85, -0.4, 0.0, 0.4, 0.85}) {
-        const double tilt = count % 2 == 0 ? 0.4 : -0.4;
         const Eigen::AngleAxisd turn(Eigen::AngleAxisd(sideways, Eigen::Vector3d::UnitY()) *
                                      Eigen::AngleAxisd(-updown, Eigen::Vector3d::UnitX()));
-        const Eigen::Vector3d middle_m =
-            distance_squares * board.square_m * (turn * Eigen::Vector3d::UnitZ());
-        const Eigen::AngleAxisd tilted(
-            turn * Eigen::AngleAxisd(tilt, count++ % 4 < 2 ? Eigen::Vector3d::UnitX()
-                                                           : Eigen::Vector3d::UnitY()));
-        const Eigen::Vector3d rotation = tilted.angle() * tilted.axis();
-        const BoardPose pose = pose_about_middle(board, {rotation.x(), rotation.y(), rotation.z()},
-                                                 {middle_m.x() + 0.06, middle_m.y(), middle_m.z()});
+        const BoardPose pose =
+            pose_in_direction(board, turn, distance_squares, 0.0, tilted(0.4, count++));
         if (is_whole(board, pose, fisheye_cameras())) poses.push_back(pose);
       }
     }
   }
   return poses;
+}
+
+std::vector<BoardPose> poses_in_image_circle(const Board& board) {
+  constexpr double kOffAxis_rad = 0.7;
+  constexpr int kDirections = 10;
+  std::vector<BoardPose> poses;
+  int count = 0;
+  for (const double distance_squares : {8.0, 10.0, 12.0}) {
+    for (int i = -1; i < kDirections; ++i) {  // first on the axis
+      const double direction = 2.0 * CV_PI * i / kDirections;
+      const Eigen::AngleAxisd turn(i < 0 ? 0.0 : kOffAxis_rad,
+                                   Eigen::Vector3d(-std::sin(direction), std::cos(direction), 0.0));
+      // Along the circle's rim, and upright.
+      for (const double roll : {std::remainder(direction + 0.5 * CV_PI, CV_PI), 0.0}) {
+        const BoardPose pose =
+            pose_in_direction(board, turn, distance_squares, roll, tilted(0.3, count++));
+        if (is_lit(board, pose)) poses.push_back(pose);
+      }
+    }
+  }
+  return poses;
+}
+
+GreyPair lit_in_image_circle(const GreyPair& pair) {
+  constexpr uchar kStrayLight = 8;
+  const StereoCalibration cameras = fisheye_cameras();
+  const auto lit = [](const cv::Mat& image, const PinholeCamera& camera) {
+    cv::Mat circle(image.size(), CV_8UC1, cv::Scalar(0));
+    cv::circle(circle, {cvRound(camera.cx), cvRound(camera.cy)}, cvRound(kImageCircle_px), 255,
+               cv::FILLED);
+    cv::Mat result(image.size(), CV_8UC1, cv::Scalar(kStrayLight));
+    image.copyTo(result, circle);
+    return result;
+  };
+  return {pair.name, lit(pair.left, cameras.left.camera), lit(pair.right, cameras.right.camera),
+          pair.utime};
 }
 
 std::vector<BoardPose> varied_poses(const Board& board, int count) {

@@ -31,6 +31,14 @@ std::vector<BoardPose> thorough_poses(const Board& board);
 /// Poses all over the field of fisheye_cameras, tilted either way, near and far, in which both see
 /// the whole board.
 std::vector<BoardPose> poses_around(const Board& board);
+/// Radius of the circle that lenses light about their principal points whose picture ends within
+/// the sensor [px].
+constexpr double kImageCircle_px = 240.0;
+/// Poses all over that circle of both fisheye_cameras, tilted either way, near and far.
+std::vector<BoardPose> poses_in_image_circle(const Board& board);
+/// A rendered pair as such cameras give it: dark, but for stray light, outside of the circle.
+GreyPair lit_in_image_circle(const GreyPair& pair);
+
 /// The places of varied_poses, but parallel to the image and all at one distance.
 std::vector<BoardPose> frontal_poses(const Board& board, int count);
 

@@ -44,7 +44,7 @@ TEST(FisheyeFit, FindsTheCamerasFromPicturesOfAChessboard) {
   EXPECT_LT(found.epipolar_px, 0.15);  // at their borders rectified images are stretched
   EXPECT_GT(found.left.focal_px, 0.0);
   EXPECT_LT(found.left.focal_px, 1.0);
-  const Verdict verdict = judge(found, least_coverage(found.views, kVga));
+  const Verdict verdict = judge(found, least_coverage(found.views, whole_images(kVga)));
   EXPECT_THAT(verdict.faults, IsEmpty());
   EXPECT_THAT(verdict.warnings, IsEmpty());
 }

@@ -20,6 +20,7 @@ using limbcast::test::Outcome;
 using limbcast::test::run_program;
 using limbcast::test::TemporaryFolder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace fs = std::filesystem;
 
@@ -183,6 +184,34 @@ TEST(CalibrateProgram, CalibratesFromALogOfAMovingBoard) {
     EXPECT_EQ(std::stol((*view)[1]) % 200'000, 100'000) << view->str();
   EXPECT_GE(views, 8);
   expect_true_cameras(read_stereo_calibration(out / "found.yml"));
+}
+
+TEST(CalibrateProgram, HasSeenEnoughThroughFisheyesWhereAllThatTheyLightIsCovered) {
+  const Board board = large_board();
+  std::vector<BoardPose> poses = poses_in_image_circle(board);
+  const std::size_t enough = poses.size();
+  for (const BoardPose& pose : varied_poses(board, 2)) poses.push_back(pose);
+  const TemporaryFolder folder;
+  std::size_t number = 0;
+  for (const BoardPose& pose : poses) {
+    GreyPair pair = lit_in_image_circle(render_board(board, pose, fisheye_cameras(), ""));
+    for (int still = 0; still < 2; ++still) {
+      pair.name = numbered("frame_", number++);
+      write_pair(folder, pair);
+    }
+  }
+  const TemporaryFolder out;
+  ASSERT_NO_FATAL_FAILURE(record(folder, out));
+
+  const Outcome outcome = run_program(
+      "limbcast-calibrate", {"--source", out / "in.log", "--lens", "fisheye", "--square-mm", "50",
+                             "--output", out / "found.yml", "--picture", out / "report.png"});
+
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, Not(HasSubstr("to add:")));
+  EXPECT_THAT(outcome.err, HasSubstr("view 15 taken"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("view " + std::to_string(enough + 1) + " taken")));
+  expect_found(read_stereo_calibration(out / "found.yml"), fisheye_cameras());
 }
 
 TEST(CalibrateProgram, TellsWhyALogOfSingleShotsGivesNoViewsAndWhatToDo) {

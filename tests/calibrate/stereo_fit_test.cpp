@@ -106,8 +106,17 @@ TEST(StereoFit, LeavesK3OutWhereItWouldFoldTheImageBeyondTheBoards) {
     pose.translation_m[0] *= 0.5;
     pose.translation_m[1] *= 0.5;
   }
-  const StereoFit fit = fit_stereo(project_boards(board, poses, wide), board, kVga);
+  std::vector<View> views = project_boards(board, poses, wide);
+  views[2].left.pixels[7].y += 9.0F;
+  for (cv::Point2f& pixel : views[4].right.pixels) pixel.y += 5.0F;
+  const StereoFit fit = fit_stereo(views, board, kVga);
   expect_found(fit.calibration, wide);
+  // What the lens with k3 told of the views and points holds.
+  EXPECT_EQ(fit.views.size() + 1, views.size());
+  ASSERT_EQ(fit.outliers.size(), 1U);
+  EXPECT_EQ(fit.outliers[0].name, "view_4");
+  ASSERT_EQ(fit.outlying_points.size(), 1U);
+  EXPECT_EQ(fit.outlying_points[0].view, "view_2");
   EXPECT_EQ(fit.calibration.left.distortion.at(4), 0.0);
   const Verdict verdict = judge(fit, VerdictParams{}.min_coverage);
   EXPECT_THAT(verdict.faults, IsEmpty());
@@ -243,7 +252,7 @@ TEST(Advise, AsksForNothingMoreWhenViewsAreVaried) {
   const Board board;
   const StereoFit fit =
       fit_stereo(project_boards(board, varied_poses(board, 24), true_cameras()), board, kVga);
-  for (const std::string& sentence : advise(fit, kVga))
+  for (const std::string& sentence : advise(fit, whole_images(kVga)))
     EXPECT_THAT(sentence, ::testing::Not(HasSubstr("degrees")));
 }
 
@@ -255,7 +264,7 @@ TEST(Advise, AsksForTiltDistanceAndEmptyParts) {
   fit.views = {views[0]};
   fit.figures = {fit.figures[0]};
   fit.figures[0].tilt_sideways_deg = fit.figures[0].tilt_updown_deg = 2.0;
-  const std::vector<std::string> advice = advise(fit, kVga);
+  const std::vector<std::string> advice = advise(fit, whole_images(kVga));
   EXPECT_THAT(advice,
               Contains(HasSubstr("turn the board left and right by 20 to 45 degrees (0 of")));
   EXPECT_THAT(advice, Contains(HasSubstr("tip the board up and down")));
@@ -271,7 +280,7 @@ class Complete : public ::testing::Test {
     return project_boards(board_, poses, true_cameras());
   }
   bool complete_with(const std::vector<View>& views) const {
-    return complete(views, board_, kVga, LensModel::kPinhole, params_);
+    return complete(views, board_, whole_images(kVga), LensModel::kPinhole, params_);
   }
   /// Large, so that it stands far away: then both cameras see it at the image's edge too.
   Board board_ = [] {

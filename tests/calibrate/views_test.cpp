@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "common/input_error.hpp"
@@ -171,6 +172,35 @@ TEST_F(Views, AreRefusedWhereMotionBlursEdgesOfOneDirectionOnly) {
     cv::blur(pair.right, pair.right, motion_px);
     ViewCollector collector(board_, false);
     EXPECT_THAT(reason_for(collector, pair), HasSubstr("blurred: edges in the right image"));
+  }
+}
+
+TEST_F(Views, OfCirclesAreRefusedWhereBlurJoinsThemWithTheNext) {
+  board_.kind = BoardKind::kCircles;
+  const auto blurred = [](const GreyPair& sharp, const std::function<void(cv::Mat&)>& blur) {
+    GreyPair pair{sharp.name, sharp.left, sharp.right.clone()};
+    blur(pair.right);
+    return pair;
+  };
+  // The circles' middles are 19 px from one another, on a larger board 30.
+  for (const double larger : {1.0, 1.6}) {
+    board_.square_m = larger * Board{}.square_m;
+    board_.columns = 5;
+    const GreyPair sharp = picture("a");
+    const auto reason_of = [&](const std::function<void(cv::Mat&)>& blur) {
+      ViewCollector collector(board_, false);
+      return reason_for(collector, blurred(sharp, blur));
+    };
+    EXPECT_EQ(reason_of([](const cv::Mat&) {}), "");
+    EXPECT_EQ(reason_of([&](cv::Mat& image) { cv::GaussianBlur(image, image, {}, 1.2 * larger); }),
+              "");
+    EXPECT_THAT(
+        reason_of([&](cv::Mat& image) { cv::GaussianBlur(image, image, {}, 3.2 * larger); }),
+        HasSubstr("blurred: edges in the right image"));
+    const int motion = cvRound(11.0 * larger);
+    for (const cv::Size& motion_px : {cv::Size(motion, 1), cv::Size(1, motion)})
+      EXPECT_THAT(reason_of([&](cv::Mat& image) { cv::blur(image, image, motion_px); }),
+                  HasSubstr("blurred: edges in the right image"));
   }
 }
 

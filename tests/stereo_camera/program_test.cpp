@@ -89,6 +89,9 @@ TEST_F(StereoCameraProgram, EndsWithCode2OnInputThatCannotBeUsed) {
   EXPECT_THAT(
       error({"--source", folder_, "--calibration", write_stereo_calibration(folder_, -0.12)}),
       HasSubstr("swap the left and right cameras"));
+  EXPECT_THAT(
+      error({"--source", folder_, "--calibration", write_stereo_calibration(folder_, 0.12, "0.")}),
+      HasSubstr("calibration.yml: 'K1' has its principal point at (0, 24); neither may"));
   write_stereo_calibration(folder_);
   std::filesystem::resize_file(folder_ + "/frame_1_right.jpg", 100);
   EXPECT_THAT(error({"--source", folder_}), HasSubstr("frame_1_right.jpg: is a torn JPEG"));

@@ -20,9 +20,10 @@ inline void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-inline std::string write_stereo_calibration(const std::string& folder, double baseline_m = 0.12) {
+inline std::string write_stereo_calibration(const std::string& folder, double baseline_m = 0.12,
+                                            const std::string& cx = "32.") {
   const std::string matrix = ": !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: ";
-  const std::string K = "[ 50., 0., 32., 0., 50., 24., 0., 0., 1. ]\n";
+  const std::string K = "[ 50., 0., " + cx + ", 0., 50., 24., 0., 0., 1. ]\n";
   std::string text = "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\n";
   text += "K1" + matrix + K + "K2" + matrix + K;
   text += "R" + matrix + "[ 1., 0., 0., 0., 1., 0., 0., 0., 1. ]\n";

@@ -110,6 +110,17 @@ TEST_F(StereoCalibrationCheck, RefusesLensesThatAreNotAlike) {
               HasSubstr("'K2' has a focal length of 1001 px, the left camera 500"));
 }
 
+TEST_F(StereoCalibrationCheck, RefusesAPrincipalPointThatNobodyWrote) {
+  const std::string kAdvice =
+      "; neither may be exactly 0, which is written where it is not known; calibrate again";
+  EXPECT_THAT(error_with("K1", matrix(3, 3, "500., 0., 0., 0., 500., 0., 0., 0., 1.")),
+              HasSubstr("stereo.yml: 'K1' has its principal point at (0, 0)" + kAdvice));
+  EXPECT_THAT(error_with("K2", matrix(3, 3, "500., 0., 0., 0., 500., 240., 0., 0., 1.")),
+              HasSubstr("stereo.yml: 'K2' has its principal point at (0, 240)" + kAdvice));
+  EXPECT_THAT(error_with("K2", matrix(3, 3, "500., 0., 320., 0., 500., 0., 0., 0., 1.")),
+              HasSubstr("stereo.yml: 'K2' has its principal point at (320, 0)" + kAdvice));
+}
+
 TEST_F(StereoCalibrationCheck, RefusesARectificationThatDoesNotBelongToTheCameras) {
   const auto with_projections = [](const std::string& cx, const std::string& offset) {
     const std::string identity = matrix(3, 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.");
@@ -126,6 +137,8 @@ TEST_F(StereoCalibrationCheck, RefusesARectificationThatDoesNotBelongToTheCamera
   EXPECT_THAT(
       error_of_file(with_projections("5000.", "-60.")),
       HasSubstr("'P1' has its principal point (5000, 240) far outside the image of 640x480"));
+  EXPECT_THAT(error_of_file(with_projections("0.", "-60.")),
+              HasSubstr("'P1' has its principal point at (0, 240); neither may be exactly 0"));
   EXPECT_THAT(error_of_file(with_projections("320.", "-64.")),
               HasSubstr("'P2' has a baseline of 0.128 m, 'T' of 0.120021 m"));
 }
