@@ -211,6 +211,30 @@ struct LostArmParams {
   float max_seeds_apart_m = 0.7F, max_head_error_m = 0.2F;
 };
 
+/// People who bend down (bodies/split_bodies.hpp). Of simulated people before all sensors 62
+/// segments of parts of bodies lie within these limits, and of 848 beside somebody else's none;
+/// three of these do where one joint is enough.
+struct SplitBodyParams {
+  // What the network of depths must see to be believed about a head.
+  float min_person_odds = 1.0F;       ///< log odds of a person
+  float min_head_visibility = 0.35F;  ///< 0 to 1
+  float max_head_spread_m = 0.05F;    ///< across the ray
+  /// How far from its segment's seed such a head is at most, where others are its body's parts [m].
+  float max_head_error_m = 0.25F;
+  /// A segment in which the network sees a head so well and so near to the seed [m] is no part of
+  /// somebody else's.
+  float min_own_head_visibility = 0.3F, max_own_head_error_m = 0.1F;
+  /// A joint is seen, and lies on a segment no farther from its points than this [m].
+  float min_joint_visibility = 0.4F, max_joint_distance_m = 0.2F;
+  /// So many joints of the person's are in what is another part of the body.
+  int min_joints_in_part = 2;
+  /// Where two segments of one body began [m]: a trunk, a thigh and a head.
+  float max_seeds_apart_m = 1.3F;
+  /// A head so far from the seed is put right [m]: of 72 such (people who bend down, stand, sit and
+  /// stand in groups) it is the seed that is wrong, but of one.
+  float min_moved_m = 0.2F;
+};
+
 /// Arms that growing did not reach (bodies/floating_arms.hpp). Of 141 such surfaces beside
 /// simulated people before scanners 120 were parts of them, of 16 before depth cameras without
 /// colours 13, of 59 before stereo pairs 40.
@@ -298,6 +322,7 @@ struct Params {
   OverlookedParams overlooked;
   HiddenHeadParams overlooked_bodies = kOverlookedBodies;
   LostArmParams lost_arms;
+  SplitBodyParams split_bodies;
   FloatingArmParams floating_arms;
   FloatingArmParams floating_arms_beside_image = kFloatingArmsBesideImage;
   FilterParams filters;

@@ -19,6 +19,7 @@
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/range_image.hpp"
 #include "modules/segmenter/seeds/head_shape.hpp"
+#include "modules/segmenter/seeds/seed_place.hpp"
 #include "modules/segmenter/seeds/skin_seeds.hpp"
 
 namespace limbcast::segmenter {
@@ -35,6 +36,15 @@ Segment make_segment(const HeadCandidate& head, const LevelFrame& frame, float o
   return segment;
 }
 
+/// What the network of depths sees, among what those of colours see.
+void add_pose(const std::optional<PoseInDepths>& seen, Segment& segment) {
+  if (!seen || !segment.range_image) return;
+  auto pose = in_pixels(*seen, *segment.range_image);
+  if (!pose) return;
+  segment.image_poses.resize(kImageNetworkCount);
+  segment.image_poses[static_cast<std::size_t>(ImageNetwork::kDepthPose)] = std::move(*pose);
+}
+
 void reject(const Rejection& rejection, Segment& segment) {
   segment.rejected_by = rejection.filter;
   segment.filter_figure = rejection.figure;
@@ -42,11 +52,6 @@ void reject(const Rejection& rejection, Segment& segment) {
 }
 
 }  // namespace
-
-Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
-  constexpr float kHeadDepth_m = 0.09F;
-  return seed_m + kHeadDepth_m * seed_m.normalized();
-}
 
 Segmenter::Segmenter(const Params& params)
     : params_(params), faces_(params.faces), image_(params), depth_pose_(params.depth_pose) {}
@@ -59,7 +64,7 @@ Segments Segmenter::segment(const Cloud& cloud, DepthPictures* pictures) const {
   const std::vector<std::int16_t> labels = params_.growing == Growing::kPaper
                                                ? grow_as_paper(scene, seeds, result)
                                                : grow_refined(scene, seeds, result);
-  DepthPictures drawn = fill_segments(scene, labels, result);
+  DepthPictures drawn = fill_segments(scene, labels, Heads::kFound, result);
   if (pictures != nullptr) *pictures = std::move(drawn);
   return result;
 }
@@ -76,7 +81,7 @@ Segments Segmenter::cut_out_people(const Cloud& cloud,
     heads.push_back(*head);
     result.segments.push_back(make_segment(*head, scene.lattice.frame, 0.0F));
   }
-  fill_segments(scene, grow_from(scene, std::move(heads)), result);
+  fill_segments(scene, grow_from(scene, std::move(heads)), Heads::kTold, result);
   return result;
 }
 
@@ -270,33 +275,49 @@ DepthPictures Segmenter::draw_people(const Scene& scene, const std::vector<std::
   return pictures;
 }
 
-void Segmenter::see_depths(const DepthPictures& pictures, Segments& result) const {
+PosesInDepths Segmenter::see_depths(const DepthPictures& pictures) const {
+  PosesInDepths poses(pictures.size());
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t k) {
-    Segment& segment = result.segments[k];
-    if (!pictures[k] || !segment.range_image) return;
-    const auto seen = depth_pose_.look(*pictures[k]);
-    auto pose = seen ? in_pixels(*seen, *segment.range_image) : std::nullopt;
-    if (!pose) return;
-    segment.image_poses.resize(kImageNetworkCount);
-    segment.image_poses[static_cast<std::size_t>(ImageNetwork::kDepthPose)] = std::move(*pose);
+    if (pictures[k]) poses[k] = depth_pose_.look(*pictures[k]);
   });
+  return poses;
+}
+
+PosesInDepths Segmenter::put_bodies_right(const Scene& scene, std::vector<std::int16_t>& labels,
+                                          DepthPictures& pictures, Segments& result) const {
+  const auto look = [&] {
+    pictures = draw_people(scene, labels, result.segments);
+    return see_depths(pictures);
+  };
+  PosesInDepths poses = look();
+  const SplitBodyParams& params = params_.split_bodies;
+  if (join_split_bodies(scene, poses, params, result.segments, labels)) poses = look();
+  if (put_seeds_to_heads(poses, params, result.segments)) poses = look();
+  return poses;
 }
 
 DepthPictures Segmenter::fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
-                                       Segments& result) const {
+                                       Heads heads, Segments& result) const {
   // The image tells of arms that are in no segment yet.
-  const bool image = has_image(scene.cloud);
-  const bool mends_arms = image && params_.growing != Growing::kPaper;
-  if (mends_arms) join_arms(scene, labels, result);
+  const bool image = has_image(scene.cloud), refined = params_.growing != Growing::kPaper;
+  if (image && refined) join_arms(scene, labels, result);
+  DepthPictures pictures;
+  PosesInDepths poses;
+  if (heads == Heads::kFound && refined) {
+    poses = put_bodies_right(scene, labels, pictures, result);
+  } else {
+    pictures = draw_people(scene, labels, result.segments);
+    poses = see_depths(pictures);
+  }
   if (image) see_people(scene, labels, result);
-  DepthPictures pictures = draw_people(scene, labels, result.segments);
-  if (mends_arms) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
+  if (image && refined) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
   for (std::size_t k = 0; k < result.segments.size(); ++k) {
     Segment& segment = result.segments[k];
     segment.id = static_cast<std::int32_t>(k);
-    if (segment.valid()) fill_segment(scene, labels, static_cast<std::int16_t>(k), segment);
+    if (!segment.valid()) continue;
+    fill_segment(scene, labels, static_cast<std::int16_t>(k), segment);
+    add_pose(poses[k], segment);
   }
-  see_depths(pictures, result);
   return pictures;
 }
 

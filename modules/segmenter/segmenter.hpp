@@ -5,6 +5,7 @@
 
 #include "common/cloud/cloud.hpp"
 #include "common/cloud/segment.hpp"
+#include "modules/segmenter/bodies/split_bodies.hpp"
 #include "modules/segmenter/classifiers/body_classifier.hpp"
 #include "modules/segmenter/classifiers/head_classifier.hpp"
 #include "modules/segmenter/classifiers/surface_classifier.hpp"
@@ -17,9 +18,6 @@
 #include "modules/segmenter/seeds/skin_color.hpp"
 
 namespace limbcast::segmenter {
-
-/// Centre of the head whose surface is seen at `seed_m`, in the sensor's frame.
-Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m);
 
 /// One for each segment.
 using DepthPictures = std::vector<std::optional<DepthPicture>>;
@@ -66,9 +64,14 @@ class Segmenter {
   DepthPictures draw_people(const Scene& scene, const std::vector<std::int16_t>& labels,
                             const std::vector<Segment>& segments) const;
   /// What the network of depths sees of each person.
-  void see_depths(const DepthPictures& pictures, Segments& result) const;
+  PosesInDepths see_depths(const DepthPictures& pictures) const;
+  /// The same of people whose bodies the network has put right (split_bodies.hpp).
+  PosesInDepths put_bodies_right(const Scene& scene, std::vector<std::int16_t>& labels,
+                                 DepthPictures& pictures, Segments& result) const;
+  /// Whether the network of depths may put right where people's heads are.
+  enum class Heads { kFound, kTold };
   /// Returns what the network of depths was shown.
-  DepthPictures fill_segments(const Scene& scene, std::vector<std::int16_t> labels,
+  DepthPictures fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Heads heads,
                               Segments& result) const;
   /// The points of the cloud that carry `label`, and the range image around them.
   void fill_segment(const Scene& scene, const std::vector<std::int16_t>& labels, std::int16_t label,

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "modules/segmenter/growing/filters.hpp"
+#include "modules/segmenter/bodies/same_person.hpp"
 #include "modules/segmenter/scene/surfaces.hpp"
 
 namespace limbcast::segmenter {
@@ -94,9 +94,8 @@ std::vector<int> count_points(const std::vector<std::int16_t>& labels, std::size
   return counts;
 }
 
-std::vector<std::int16_t> relabelled(std::vector<std::int16_t> labels, std::int16_t from,
-                                     std::int16_t to) {
-  std::replace(labels.begin(), labels.end(), from, to);
+std::vector<std::int16_t> without(std::vector<std::int16_t> labels, std::int16_t label) {
+  std::replace(labels.begin(), labels.end(), label, kNobody);
   return labels;
 }
 
@@ -142,7 +141,7 @@ void join_arms_taken_for_heads(const Scene& scene, const PersonLook& look,
         (head_m - segments[arm].seed_m).norm() > params.max_seeds_apart_m)
       return false;
     const auto label = static_cast<std::int16_t>(arm);
-    const auto pose = look(relabelled(labels, label, kNobody), static_cast<std::int16_t>(person));
+    const auto pose = look(without(labels, label), static_cast<std::int16_t>(person));
     return pose && marks_head(*pose, camera, head_m, params.max_head_error_m) &&
            marks_arm_in(*pose, scene.cloud, labels, label, params.min_visibility);
   };
@@ -153,11 +152,7 @@ void join_arms_taken_for_heads(const Scene& scene, const PersonLook& look,
       continue;
     for (std::size_t person = 0; person < segments.size(); ++person) {
       if (!is_arm_of(arm, person)) continue;
-      labels = relabelled(std::move(labels), static_cast<std::int16_t>(arm),
-                          static_cast<std::int16_t>(person));
-      segments[arm].rejected_by = SegmentFilter::kSamePerson;
-      segments[arm].filter_figure = 1.0F;
-      segments[arm].filter_limit = kSamePersonShare;
+      give_to_same_person(arm, person, segments, labels);
       break;
     }
   }

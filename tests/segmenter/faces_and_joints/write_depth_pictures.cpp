@@ -17,6 +17,7 @@
 
 #include "common/human_model/joints.hpp"
 #include "modules/segmenter/faces_and_joints/depth_picture.hpp"
+#include "modules/segmenter/seeds/seed_place.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/segmenter/recorded_frames.hpp"
 

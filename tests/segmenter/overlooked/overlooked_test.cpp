@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/segmenter/seeds/seed_place.hpp"
 #include "modules/segmenter/segmenter.hpp"
 #include "tests/segmenter/scene/drawn_scene.hpp"
 #include "tests/segmenter/simulated_person.hpp"

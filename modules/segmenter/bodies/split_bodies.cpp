@@ -1,0 +1,121 @@
+#include "modules/segmenter/bodies/split_bodies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "modules/segmenter/bodies/same_person.hpp"
+#include "modules/segmenter/networks/network.hpp"
+#include "modules/segmenter/seeds/seed_place.hpp"
+
+namespace limbcast::segmenter {
+namespace {
+
+constexpr std::size_t kHeadJoint = static_cast<std::size_t>(Joint::kHead);
+constexpr std::size_t kFirstLimbJoint = static_cast<std::size_t>(Joint::kShoulderLeft);
+
+/// How far from where the segment began the network sees the head [m].
+float head_error_m(const PoseInDepths& pose, const Segment& segment) {
+  return (pose.places_m[kHeadJoint] - behind_surface(segment.seed_m)).norm();
+}
+
+bool sees_head(const PoseInDepths& pose, const SplitBodyParams& params) {
+  return log_odds(pose.person_score) >= params.min_person_odds &&
+         pose.visibilities[kHeadJoint] >= params.min_head_visibility &&
+         pose.spreads_m[kHeadJoint] <= params.max_head_spread_m;
+}
+
+/// Whether the network sees a head where the segment began.
+bool has_own_head(const PoseInDepths& pose, const Segment& segment, const SplitBodyParams& params) {
+  return pose.visibilities[kHeadJoint] >= params.min_own_head_visibility &&
+         head_error_m(pose, segment) <= params.max_own_head_error_m;
+}
+
+/// Squares of the distances of each joint to the points of two segments [m^2].
+struct NearestPoints {
+  explicit NearestPoints(float limit_m) {
+    squares_m2[0].fill(limit_m * limit_m);
+    squares_m2[1] = squares_m2[0];
+  }
+  std::array<std::array<float, kJointCount>, 2> squares_m2;
+};
+
+/// How many of the person's joints that the network sees lie on the other segment.
+int count_joints_in(const Scene& scene, const std::vector<std::int16_t>& labels,
+                    const PoseInDepths& pose, std::size_t person, std::size_t other,
+                    const SplitBodyParams& params) {
+  NearestPoints nearest(params.max_joint_distance_m);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto label = static_cast<std::size_t>(labels[i]);
+    if (labels[i] < 0 || (label != person && label != other)) continue;
+    std::array<float, kJointCount>& squares_m2 = nearest.squares_m2[label == person ? 0 : 1];
+    for (std::size_t joint = kFirstLimbJoint; joint < kJointCount; ++joint) {
+      const float square_m2 = (scene.cloud.points_m[i] - pose.places_m[joint]).squaredNorm();
+      squares_m2[joint] = std::min(squares_m2[joint], square_m2);
+    }
+  }
+  int count = 0;
+  for (std::size_t joint = kFirstLimbJoint; joint < kJointCount; ++joint) {
+    if (pose.visibilities[joint] >= params.min_joint_visibility &&
+        nearest.squares_m2[1][joint] < nearest.squares_m2[0][joint])
+      ++count;
+  }
+  return count;
+}
+
+/// The segments, those first in which the network sees a head the best.
+std::vector<std::size_t> by_heads(const PosesInDepths& poses) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    if (poses[k]) order.push_back(k);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return poses[a]->visibilities[kHeadJoint] > poses[b]->visibilities[kHeadJoint];
+  });
+  return order;
+}
+
+}  // namespace
+
+bool join_split_bodies(const Scene& scene, const PosesInDepths& poses,
+                       const SplitBodyParams& params, std::vector<Segment>& segments,
+                       std::vector<std::int16_t>& labels) {
+  const auto is_part_of = [&](std::size_t part, std::size_t person) {
+    return part != person && poses[part] && segments[part].valid() &&
+           !has_own_head(*poses[part], segments[part], params) &&
+           (segments[part].seed_m - segments[person].seed_m).norm() <= params.max_seeds_apart_m &&
+           count_joints_in(scene, labels, *poses[person], person, part, params) >=
+               params.min_joints_in_part;
+  };
+  bool any = false;
+  for (const std::size_t person : by_heads(poses)) {
+    if (!segments[person].valid() || !sees_head(*poses[person], params) ||
+        head_error_m(*poses[person], segments[person]) > params.max_head_error_m)
+      continue;
+    for (std::size_t part = 0; part < poses.size(); ++part) {
+      if (!is_part_of(part, person)) continue;
+      give_to_same_person(part, person, segments, labels);
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool put_seeds_to_heads(const PosesInDepths& poses, const SplitBodyParams& params,
+                        std::vector<Segment>& segments) {
+  bool any = false;
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    Segment& segment = segments[k];
+    if (!poses[k] || !segment.valid() || !sees_head(*poses[k], params) ||
+        head_error_m(*poses[k], segment) < params.min_moved_m)
+      continue;
+    segment.seed_m = surface_before(poses[k]->places_m[kHeadJoint]);
+    // It is in sight now.
+    if (segment.seed_kind == SeedKind::kBody) segment.seed_kind = SeedKind::kHeadShape;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace limbcast::segmenter
