@@ -221,13 +221,16 @@ struct SplitBodyParams {
   float max_head_spread_m = 0.05F;    ///< across the ray
   /// How far from its segment's seed such a head is at most, where others are its body's parts [m].
   float max_head_error_m = 0.25F;
-  /// A segment in which the network sees a head so well and so near to the seed [m] is no part of
-  /// somebody else's.
+  /// A segment in which the network sees a head so well and so near to the seed [m] is hardly a
+  /// part of somebody else's.
   float min_own_head_visibility = 0.3F, max_own_head_error_m = 0.1F;
   /// A joint is seen, and lies on a segment no farther from its points than this [m].
   float min_joint_visibility = 0.4F, max_joint_distance_m = 0.2F;
-  /// So many joints of the person's are in what is another part of the body.
-  int min_joints_in_part = 2;
+  /// So many joints of the person's are in what is another part of the body; and so many where the
+  /// network sees a head there too, but less plainly by this: of the same segments seven more, and
+  /// still none of somebody else.
+  int min_joints_in_part = 2, min_joints_beside_head = 4;
+  float min_visibility_gap = 0.15F;
   /// Where two segments of one body began [m]: a trunk, a thigh and a head.
   float max_seeds_apart_m = 1.3F;
   /// A head so far from the seed is put right [m]: of 50 such (people who bend down, stand, sit and

@@ -32,6 +32,13 @@ bool has_own_head(const PoseInDepths& pose, const Segment& segment, const SplitB
          head_error_m(pose, segment) <= params.max_own_head_error_m;
 }
 
+/// Whether the network sees a head in the one clearly worse than in the other.
+bool is_seen_worse(const PoseInDepths& pose, const PoseInDepths& other,
+                   const SplitBodyParams& params) {
+  return pose.visibilities[kHeadJoint] <=
+         other.visibilities[kHeadJoint] - params.min_visibility_gap;
+}
+
 /// Squares of the distances of each joint to the points of two segments [m^2].
 struct NearestPoints {
   explicit NearestPoints(float limit_m) {
@@ -82,11 +89,15 @@ bool join_split_bodies(const Scene& scene, const PosesInDepths& poses,
                        const SplitBodyParams& params, std::vector<Segment>& segments,
                        std::vector<std::int16_t>& labels) {
   const auto is_part_of = [&](std::size_t part, std::size_t person) {
-    return part != person && poses[part] && segments[part].valid() &&
-           !has_own_head(*poses[part], segments[part], params) &&
-           (segments[part].seed_m - segments[person].seed_m).norm() <= params.max_seeds_apart_m &&
-           count_joints_in(scene, labels, *poses[person], person, part, params) >=
-               params.min_joints_in_part;
+    if (part == person || !poses[part] || !segments[part].valid() ||
+        (segments[part].seed_m - segments[person].seed_m).norm() > params.max_seeds_apart_m)
+      return false;
+    int min_joints = params.min_joints_in_part;
+    if (has_own_head(*poses[part], segments[part], params)) {
+      if (!is_seen_worse(*poses[part], *poses[person], params)) return false;
+      min_joints = params.min_joints_beside_head;
+    }
+    return count_joints_in(scene, labels, *poses[person], person, part, params) >= min_joints;
   };
   bool any = false;
   for (const std::size_t person : by_heads(poses)) {

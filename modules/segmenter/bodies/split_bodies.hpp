@@ -15,10 +15,10 @@ namespace limbcast::segmenter {
 using PosesInDepths = std::vector<std::optional<PoseInDepths>>;
 
 /// Somebody who bends down is found by what is uppermost: the back, and often the head too, so that
-/// there are two segments, each of half a body. Segments in which the network sees limbs of a
-/// person whose head it sees in another one, and none of their own, are rejected as the same
-/// person; `labels`, the segment of each point of the cloud, give their points to that person.
-/// Returns whether there were any.
+/// there are two segments, each of half a body. Segments that hold limbs of a person whose head the
+/// network sees in another one, and no head of their own or one that is seen worse, are rejected as
+/// the same person; `labels`, the segment of each point of the cloud, give their points to that
+/// person. Returns whether there were any.
 bool join_split_bodies(const Scene& scene, const PosesInDepths& poses,
                        const SplitBodyParams& params, std::vector<Segment>& segments,
                        std::vector<std::int16_t>& labels);

@@ -98,6 +98,17 @@ TEST_F(SplitBody, IsNoneWhereTheOtherSegmentHasAHeadOfItsOwn) {
   EXPECT_TRUE(segments_[kLower].valid());
 }
 
+TEST_F(SplitBody, IsOneWhereTheBackLooksLikeAHeadToo) {
+  see(kLower, Joint::kHead, behind_surface(at(kBackPx)), 0.6F);
+  EXPECT_FALSE(joins()) << "two joints";
+  see(kUpper, Joint::kHipLeft, at(kBackPx), 0.9F);
+  see(kUpper, Joint::kHipRight, at(kBackPx), 0.9F);
+  poses_[kLower]->visibilities[index(Joint::kHead)] = 0.8F;
+  EXPECT_FALSE(joins()) << "seen as plainly as the head";
+  poses_[kLower]->visibilities[index(Joint::kHead)] = 0.6F;
+  EXPECT_TRUE(joins());
+}
+
 TEST_F(SplitBody, IsOneWhereTheOthersHeadIsSeenElsewhere) {
   see(kLower, Joint::kHead, behind_surface(at(kHeadPx)), 0.9F);
   see(kLower, Joint::kElbowLeft, at(kElbowPx), 0.9F);
