@@ -283,13 +283,15 @@ PosesInDepths Segmenter::see_depths(const DepthPictures& pictures) const {
   return poses;
 }
 
-PosesInDepths Segmenter::put_bodies_right(const Scene& scene, std::vector<std::int16_t>& labels,
+PosesInDepths Segmenter::put_bodies_right(const Scene& scene, Heads heads,
+                                          std::vector<std::int16_t>& labels,
                                           DepthPictures& pictures, Segments& result) const {
   const auto look = [&] {
     pictures = draw_people(scene, labels, result.segments);
     return see_depths(pictures);
   };
   PosesInDepths poses = look();
+  if (heads == Heads::kTold || params_.growing == Growing::kPaper) return poses;
   const SplitBodyParams& params = params_.split_bodies;
   if (join_split_bodies(scene, poses, params, result.segments, labels)) poses = look();
   if (put_seeds_to_heads(poses, params, result.segments)) poses = look();
@@ -302,13 +304,7 @@ DepthPictures Segmenter::fill_segments(const Scene& scene, std::vector<std::int1
   const bool image = has_image(scene.cloud), refined = params_.growing != Growing::kPaper;
   if (image && refined) join_arms(scene, labels, result);
   DepthPictures pictures;
-  PosesInDepths poses;
-  if (heads == Heads::kFound && refined) {
-    poses = put_bodies_right(scene, labels, pictures, result);
-  } else {
-    pictures = draw_people(scene, labels, result.segments);
-    poses = see_depths(pictures);
-  }
+  const PosesInDepths poses = put_bodies_right(scene, heads, labels, pictures, result);
   if (image) see_people(scene, labels, result);
   if (image && refined) labels = add_lost_arms(scene, result.segments, std::move(labels), params_);
   for (std::size_t k = 0; k < result.segments.size(); ++k) {

@@ -65,11 +65,12 @@ class Segmenter {
                             const std::vector<Segment>& segments) const;
   /// What the network of depths sees of each person.
   PosesInDepths see_depths(const DepthPictures& pictures) const;
-  /// The same of people whose bodies the network has put right (split_bodies.hpp).
-  PosesInDepths put_bodies_right(const Scene& scene, std::vector<std::int16_t>& labels,
-                                 DepthPictures& pictures, Segments& result) const;
   /// Whether the network of depths may put right where people's heads are.
   enum class Heads { kFound, kTold };
+  /// The same and what it was shown, of people whose bodies it has put right where it may
+  /// (split_bodies.hpp).
+  PosesInDepths put_bodies_right(const Scene& scene, Heads heads, std::vector<std::int16_t>& labels,
+                                 DepthPictures& pictures, Segments& result) const;
   /// Returns what the network of depths was shown.
   DepthPictures fill_segments(const Scene& scene, std::vector<std::int16_t> labels, Heads heads,
                               Segments& result) const;

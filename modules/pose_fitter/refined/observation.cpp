@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <opencv2/core/fast_math.hpp>
 
+#include "common/cloud/head_depth.hpp"
 #include "modules/pose_fitter/refined/chamfer_distance.hpp"
 
 namespace limbcast::pose_fitter::refined {
 namespace {
 
-/// Head's centre behind the skin the sensor sees [m] (data/README: 9 cm).
-constexpr Real kHeadDepthM = 0.09;
 /// Error of a head's centre that was seen, and of one guessed from the body beneath it [m].
 constexpr Real kSeenHeadSigmaM = 0.05, kGuessedHeadSigmaM = 0.20;
 /// An own pixel farther than this in depth from the head is an error of the segmentation [m].
@@ -289,7 +288,7 @@ std::optional<Observation> observe(const Segment& segment, const Stamp& stamp,
   observation.noise = stamp.depth_noise;
   const Vec3 seed = (image.frame_from_image.transpose() * segment.seed_m).cast<Real>();
   if (!(seed.norm() > 0.1)) return std::nullopt;
-  observation.head_start = seed + kHeadDepthM * seed.normalized();
+  observation.head_start = seed + kHeadBehindSeed_m * seed.normalized();
   observation.guessed_head = segment.seed_kind == SeedKind::kBody;
   observation.head_start_sigma_m = observation.guessed_head ? kGuessedHeadSigmaM : kSeenHeadSigmaM;
   observation.up = -(image.frame_from_image.transpose() * stamp.gravity.down).cast<Real>();

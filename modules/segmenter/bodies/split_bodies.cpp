@@ -12,8 +12,7 @@
 namespace limbcast::segmenter {
 namespace {
 
-constexpr std::size_t kHeadJoint = static_cast<std::size_t>(Joint::kHead);
-constexpr std::size_t kFirstLimbJoint = static_cast<std::size_t>(Joint::kShoulderLeft);
+constexpr int kHeadJoint = index(Joint::kHead), kFirstLimbJoint = index(Joint::kShoulderLeft);
 
 /// How far from where the segment began the network sees the head [m].
 float head_error_m(const PoseInDepths& pose, const Segment& segment) {
@@ -39,33 +38,26 @@ bool is_seen_worse(const PoseInDepths& pose, const PoseInDepths& other,
          other.visibilities[kHeadJoint] - params.min_visibility_gap;
 }
 
-/// Squares of the distances of each joint to the points of two segments [m^2].
-struct NearestPoints {
-  explicit NearestPoints(float limit_m) {
-    squares_m2[0].fill(limit_m * limit_m);
-    squares_m2[1] = squares_m2[0];
-  }
-  std::array<std::array<float, kJointCount>, 2> squares_m2;
-};
-
 /// How many of the person's joints that the network sees lie on the other segment.
 int count_joints_in(const Scene& scene, const std::vector<std::int16_t>& labels,
                     const PoseInDepths& pose, std::size_t person, std::size_t other,
                     const SplitBodyParams& params) {
-  NearestPoints nearest(params.max_joint_distance_m);
+  // Squares of the distances of each joint to the nearest point of either segment [m^2].
+  std::array<float, kJointCount> own_m2, others_m2;
+  own_m2.fill(params.max_joint_distance_m * params.max_joint_distance_m);
+  others_m2 = own_m2;
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto label = static_cast<std::size_t>(labels[i]);
-    if (labels[i] < 0 || (label != person && label != other)) continue;
-    std::array<float, kJointCount>& squares_m2 = nearest.squares_m2[label == person ? 0 : 1];
-    for (std::size_t joint = kFirstLimbJoint; joint < kJointCount; ++joint) {
+    const bool is_own = labels[i] == static_cast<std::int16_t>(person);
+    if (!is_own && labels[i] != static_cast<std::int16_t>(other)) continue;
+    std::array<float, kJointCount>& squares_m2 = is_own ? own_m2 : others_m2;
+    for (int joint = kFirstLimbJoint; joint < kJointCount; ++joint) {
       const float square_m2 = (scene.cloud.points_m[i] - pose.places_m[joint]).squaredNorm();
       squares_m2[joint] = std::min(squares_m2[joint], square_m2);
     }
   }
   int count = 0;
-  for (std::size_t joint = kFirstLimbJoint; joint < kJointCount; ++joint) {
-    if (pose.visibilities[joint] >= params.min_joint_visibility &&
-        nearest.squares_m2[1][joint] < nearest.squares_m2[0][joint])
+  for (int joint = kFirstLimbJoint; joint < kJointCount; ++joint) {
+    if (pose.visibilities[joint] >= params.min_joint_visibility && others_m2[joint] < own_m2[joint])
       ++count;
   }
   return count;

@@ -1,18 +1,20 @@
 #include "modules/segmenter/seeds/seed_place.hpp"
 
+#include "common/cloud/head_depth.hpp"
+
 namespace limbcast::segmenter {
 namespace {
 
-constexpr float kCenterBehindSurface_m = 0.09F;
+constexpr auto kDepth_m = static_cast<float>(kHeadBehindSeed_m);
 
 }  // namespace
 
 Eigen::Vector3f behind_surface(const Eigen::Vector3f& seed_m) {
-  return seed_m + kCenterBehindSurface_m * seed_m.normalized();
+  return seed_m + kDepth_m * seed_m.normalized();
 }
 
 Eigen::Vector3f surface_before(const Eigen::Vector3f& center_m) {
-  return center_m - kCenterBehindSurface_m * center_m.normalized();
+  return center_m - kDepth_m * center_m.normalized();
 }
 
 }  // namespace limbcast::segmenter
