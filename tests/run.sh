@@ -45,4 +45,5 @@ else
 fi
 
 step "tests"
-ctest --preset ci -j "$(nproc)" "$@"
+# One more than there are processors: live robots and cameras mostly wait.
+ctest --preset ci -j "$(($(nproc) + 1))" "$@"

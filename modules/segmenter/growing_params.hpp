@@ -64,36 +64,4 @@ struct JointGrowingParams : SurfaceParams {
   float head_radius_m = 0.15F;
 };
 
-/// What a body touches and is no part of it.
-struct FurnitureParams {
-  /// A limb is thinner than twice this [m]: two thighs side by side, a bent trunk from the side.
-  float limb_radius_m = 0.11F;
-  /// The trunk stands this near to the head's axis, across and behind [m].
-  float trunk_radius_m = 0.35F, trunk_depth_m = 0.40F;
-  /// Over the neck, this far below the head's centre, is only the head, hair and hat [m].
-  float neck_m = 0.12F, head_radius_m = 0.25F;
-  /// A surface ends where its depth over four pixels bends by this much [m], and by this many sigma
-  /// of the depth's noise.
-  float min_bend_m = 0.04F, bend_sigmas = 3.0F;
-};
-
-/// What is cut off from a cluster by the odds of its points (classifiers/body_classifier.hpp).
-/// Chosen on the recording `seated` of rgbd_pointing and bodies D1 to D3 of stereo_dev.
-struct BodyCutParams {
-  /// Log odds below which a point is not taken for a body's. Lower: seats stay, higher: hands go.
-  float min_body_odds = -1.0F;
-  /// Above these a point that was cut may be a body's all the same: neither a body's nor free
-  /// space.
-  float min_unsure_odds = -2.0F;
-  /// Connected points below min_body_odds count from this area on [m^2]: less is an error on a
-  /// limb.
-  float min_part_m2 = 0.06F;
-  /// With less of them the body touches nothing, and the cluster is left whole [m^2]: an arm seen
-  /// with its skirt.
-  float min_other_m2 = 0.15F;
-  /// Share of a cluster that must be left: a seated person keeps a third, a stain on a wall an
-  /// eighth.
-  float min_left_share = 0.2F;
-};
-
 }  // namespace limbcast::segmenter

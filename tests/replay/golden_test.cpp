@@ -56,16 +56,14 @@ TEST_P(ReplayOfALog, GivesTheRecordedPoses) {
 }
 
 TEST_P(ReplayOfALog, GivesTheSameBytesOnAnyNumberOfThreads) {
-  const std::string bytes = bytes_of(replay_on(1));
-  for (const int threads : {2, 4}) {
-    // No EXPECT_EQ: it would print megabytes.
-    EXPECT_TRUE(bytes_of(replay_on(threads)) == bytes) << threads << " threads give another log";
-  }
+  // Four: more than some computers have, so that they overtake one another. No EXPECT_EQ: it would
+  // print megabytes.
+  EXPECT_TRUE(bytes_of(replay_on(4)) == bytes_of(replay_on(1))) << "4 threads give another log";
 }
 
 TEST_P(ReplayOfALog, HasImagesAndCloudsThatAreSmallEnoughForTheNetwork) {
   constexpr std::size_t kMostBytes = 250'000;  // a lost fragment loses the message
-  for (const lcm_io::LogEvent& event : events_of(replay_on(2))) {
+  for (const lcm_io::LogEvent& event : events_of(replay_on(4))) {
     if (event.channel != "STEREO_IMAGES" && event.channel != "POINT_CLOUD") continue;
     EXPECT_LE(event.data.size(), kMostBytes) << event.channel << " at " << event.utime;
   }

@@ -13,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadian = 3.14159265358979 / 180.0;
-
 double distance(const Skeleton& skeleton, Joint a, Joint b) {
   return (skeleton[a] - skeleton[b]).norm();
 }
@@ -222,11 +220,11 @@ TEST(Postures, PointingArmsAreNearlyStraightAndWithinTheirRange) {
     const auto side = static_cast<Side>(posture.pointing_side);
     const Skeleton skeleton = make_skeleton(body, posture, {});
 
-    EXPECT_LE(elbow_bend_rad(skeleton, side), (params.max_bend_deg + 2.0) * kRadian);
+    EXPECT_LE(elbow_bend_rad(skeleton, side), radians(params.max_bend_deg + 2.0));
     const double elevation =
         std::asin((skeleton.chest_R.transpose() * arm_axis(skeleton, side)).y());
-    EXPECT_GE(elevation, (params.min_elevation_deg - 2.0) * kRadian);
-    EXPECT_LE(elevation, (params.max_elevation_deg + 2.0) * kRadian);
+    EXPECT_GE(elevation, radians(params.min_elevation_deg - 2.0));
+    EXPECT_LE(elevation, radians(params.max_elevation_deg + 2.0));
   }
 }
 

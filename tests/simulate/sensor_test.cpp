@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
+#include "common/units.hpp"
 #include "modules/simulate/depth_sensor.hpp"
 #include "modules/simulate/laser.hpp"
 
@@ -193,11 +194,10 @@ TEST(Laser, ARingsAzimuthsAreOffTogether) {
   // away by 4 m tan(azimuth) e farther away (cos(elevation) = 1 nearly).
   std::vector<double> of_rings_deg;
   for (std::size_t ring = 0; ring < kRings; ++ring) {
-    constexpr double kRadian = 3.14159265358979 / 180.0;
     const double right_m = errors_m[ring * kReturns + kReturns - 1],
                  left_m = errors_m[ring * kReturns];
-    const double slope_m = 2.0 * 4.0 * std::tan(20.0 * kRadian) / std::cos(20.0 * kRadian);
-    of_rings_deg.push_back((right_m - left_m) / slope_m / kRadian);
+    const double slope_m = 2.0 * 4.0 * std::tan(radians(20.0)) / std::cos(radians(20.0));
+    of_rings_deg.push_back((right_m - left_m) / slope_m * kDegreesPerRadian<double>);
   }
   EXPECT_NEAR(root_mean_square(of_rings_deg), params.ring_azimuth_sigma_deg, 0.5);
 }

@@ -16,7 +16,7 @@ Vec3 sum(const Anchor& anchor, const std::array<Vec3, kPointCount>& points) {
 }
 
 /// Offset of the left side seen from `side`.
-Vec3 mirrored(const Vec3& left, int side) {
+Vec3 to_side(const Vec3& left, int side) {
   return {side_sign(side) * left.x(), left.y(), left.z()};
 }
 
@@ -24,8 +24,8 @@ Vec3 mirrored(const Vec3& left, int side) {
 /// the left side.
 void hang_pair(BodyState& body, int point, int from, const Vec3& left) {
   for (int side = 0; side < 2; ++side) {
-    body.points[on_side(point, side)] = body.points[on_side(from, side)] +
-                                        body.rotation * (body.stature_m() * mirrored(left, side));
+    body.points[on_side(point, side)] =
+        body.points[on_side(from, side)] + body.rotation * (body.stature_m() * to_side(left, side));
   }
 }
 
@@ -67,7 +67,7 @@ BodyState rest_body(const Vec3& head, const Vec3& up, Real yaw_rad, Real log_sta
   body.points[kPelvis] = body.points[kNeck] + offset(body_offsets()[2].mean);
   for (int side = 0; side < 2; ++side) {
     const auto hang = [&](int point, int from, const Vec3& left) {
-      body.points[on_side(point, side)] = body.points[from] + offset(mirrored(left, side));
+      body.points[on_side(point, side)] = body.points[from] + offset(to_side(left, side));
     };
     hang(kShoulder, kNeck, {0.102, -kNeckOverShoulders, 0.0067});
     hang(kElbow, on_side(kShoulder, side), {0.02, -0.146, -0.005});
