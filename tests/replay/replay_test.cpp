@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -10,7 +12,9 @@
 #include <limbcast/body_poses_t.hpp>
 #include <limbcast/module_status_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
+#include <thread>
 
+#include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/decode.hpp"
 #include "common/lcm_io/module.hpp"
 #include "tests/replay/log_tools.hpp"
@@ -197,6 +201,31 @@ TEST_F(ReplayProgram, ReplaysWhatATornLogHolds) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output, HasSubstr("is torn, its last"));
   EXPECT_THAT(on_channel(events_of(path("out.log")), "BODY_POSES"), SizeIs(1));
+}
+
+TEST_F(ReplayProgram, GoesOnWhereALoggerAddsASensorMeanwhile) {
+  ReplayOptions options;
+  options.in = path("in.log");
+  options.out = path("out.log");
+  options.from = Level::kPoses;
+  options.track = true;
+  lcm_io::LogWriter log(options.in);
+  int num_sensors = 0;
+  const auto write_frame = [&] {
+    constexpr int kWrittenAtOnce_bytes = 4096;  // less is kept back
+    BodyPoses poses;
+    poses.stamp.sensor = std::string(kWrittenAtOnce_bytes, 'x') + std::to_string(num_sensors++);
+    log.write(poses.stamp.utime, "BODY_POSES", lcm_io::to_message(poses));
+  };
+  while (num_sensors < 1000) write_frame();
+  std::atomic<bool> ends = false;
+  std::thread logger([&] {
+    for (; !ends; std::this_thread::sleep_for(std::chrono::milliseconds(1))) write_frame();
+  });
+  EXPECT_NO_THROW(limbcast::replay::replay(options, ChainOptions{}, [](int, int) {}));
+  ends = true;
+  logger.join();
+  EXPECT_GE(events_of(options.out).size(), 1000U);
 }
 
 TEST_F(ReplayProgram, EndsWithTwoForLogsThatCannotBeUsed) {
