@@ -10,6 +10,7 @@
 
 #include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
+#include "modules/evaluate/reported_frames.hpp"
 #include "modules/evaluate/statistics.hpp"
 
 namespace limbcast::evaluate {
@@ -29,12 +30,6 @@ using Life = std::vector<Moment>;
 
 double seconds_between(const Moment& a, const Moment& b) {
   return static_cast<double>(b.utime - a.utime) / kMicrosecondsPerSecond<double>;
-}
-
-std::map<std::int64_t, const BodyPoses*> by_utime(const std::vector<BodyPoses>& frames) {
-  std::map<std::int64_t, const BodyPoses*> found;
-  for (const BodyPoses& frame : frames) found[frame.stamp.utime] = &frame;
-  return found;
 }
 
 /// What tells true persons of a frame apart.
@@ -275,16 +270,11 @@ TrackingTally evaluate_tracking(const std::vector<TruthFrame>& truth,
                                 const std::vector<BodyPoses>& untracked,
                                 const std::vector<BodyPoses>& tracked,
                                 const TrackingParams& params) {
-  const auto untracked_at = by_utime(untracked), tracked_at = by_utime(tracked);
-  const auto find = [](const auto& frames, std::int64_t utime) {
-    const auto found = frames.find(utime);
-    return found == frames.end() ? nullptr : found->second;
-  };
+  const ReportedFrames untracked_frames(untracked), tracked_frames(tracked);
   Lives lives(params);
-  for (const TruthFrame& frame : truth) {
-    const std::int64_t utime = frame.poses.stamp.utime;
-    lives.add(frame.poses, find(untracked_at, utime), find(tracked_at, utime));
-  }
+  for (const TruthFrame& frame : truth)
+    lives.add(frame.poses, untracked_frames.at(frame.poses.stamp),
+              tracked_frames.at(frame.poses.stamp));
   TrackingTally tally;
   for (const Life& life : lives.take()) add_life(life, params, tally);
   return tally;
