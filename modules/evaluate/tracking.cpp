@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
@@ -54,7 +56,7 @@ class Lives {
     const std::vector<int> who = identities(truth.persons);
     for (std::size_t i = 0; i < truth.persons.size(); ++i) {
       const Moment moment{truth.stamp.utime, &truth.persons[i], in_untracked[i], in_tracked[i]};
-      Life& life = present_[who[i]];
+      Life& life = present_[{truth.stamp.sensor, who[i]}];
       if (!life.empty() && is_cut(life.back(), moment)) finish(life);
       life.push_back(moment);
     }
@@ -86,7 +88,7 @@ class Lives {
   }
 
   const TrackingParams& params_;
-  std::map<int, Life> present_;
+  std::map<std::pair<std::string, int>, Life> present_;  ///< by sensor and person
   std::vector<Life> finished_;
 };
 

@@ -35,7 +35,8 @@ struct TrackingTally {
 };
 
 /// Compares untracked and tracked poses with the truth. Frames are paired as by evaluate(); true
-/// persons are told apart by their id, or by their place in the frame where ids are all the same.
+/// persons of a sensor are told apart by their id, or by their place in the frame where ids are all
+/// the same.
 TrackingTally evaluate_tracking(const std::vector<TruthFrame>& truth,
                                 const std::vector<BodyPoses>& untracked,
                                 const std::vector<BodyPoses>& tracked,
