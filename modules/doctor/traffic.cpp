@@ -20,6 +20,9 @@ const std::vector<std::string> kCameras = {"stereo_camera", "depth_camera"};
 const std::vector<std::string> kSourcesOfClouds = {"laser_scanner", "simulate"};
 const std::vector<std::string> kBehindClouds = {"segmenter", "pose_fitter"};
 const std::vector<std::string> kChain = {"reconstructor", "segmenter", "pose_fitter"};
+/// What works on every frame that it hears.
+const std::vector<std::string> kBehindSensors = {"reconstructor", "segmenter", "pose_fitter",
+                                                 "tracker"};
 
 /// All of limbcast's that tell how they fare.
 const std::vector<std::string> kModules = {"stereo_camera", "depth_camera",  "laser_scanner",
@@ -108,13 +111,13 @@ Findings check_chain(const Traffic& traffic) {
   return findings;
 }
 
-/// Two of the chain would each work on every frame.
+/// Two of a kind would each work on every frame.
 Findings check_doubles(const std::map<Process, History>& processes) {
   std::map<std::string, std::vector<std::string>> hosts;
   for (const auto& [process, history] : processes)
     hosts[std::get<0>(process)].push_back(std::get<1>(process));
   Findings findings;
-  for (const std::string& module : kChain) {
+  for (const std::string& module : kBehindSensors) {
     if (hosts[module].size() < 2) continue;
     std::string where;
     for (const std::string& host : hosts[module]) where += " " + host;

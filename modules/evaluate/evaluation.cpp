@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "common/angle.hpp"
 #include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
+#include "modules/evaluate/reported_frames.hpp"
 
 namespace limbcast::evaluate {
 namespace {
@@ -236,13 +236,9 @@ void Evaluation::add_directions(const Pointing& truth, const Pointing& said) {
 
 Tally evaluate(const std::vector<TruthFrame>& truth, const std::vector<BodyPoses>& reported,
                const EvaluationParams& params) {
-  std::map<std::int64_t, const BodyPoses*> by_utime;
-  for (const BodyPoses& poses : reported) by_utime[poses.stamp.utime] = &poses;
+  const ReportedFrames frames(reported);
   Evaluation evaluation(params);
-  for (const TruthFrame& frame : truth) {
-    const auto found = by_utime.find(frame.poses.stamp.utime);
-    evaluation.add(frame, found == by_utime.end() ? nullptr : found->second);
-  }
+  for (const TruthFrame& frame : truth) evaluation.add(frame, frames.at(frame.poses.stamp));
   return evaluation.tally();
 }
 

@@ -116,7 +116,7 @@ class Evaluation {
   Tally tally_;
 };
 
-/// Pairs truth and reports by utime. Reports without truth are left out.
+/// Pairs truth and reports by utime and sensor. Reports without truth are left out.
 Tally evaluate(const std::vector<TruthFrame>& truth, const std::vector<BodyPoses>& reported,
                const EvaluationParams& params = {});
 

@@ -1,5 +1,7 @@
 #include <cstdio>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "common/camera/picture_file.hpp"
 #include "common/config/log.hpp"
@@ -88,8 +90,11 @@ std::vector<TruthFrame> read_truth(const Options& options) {
   if (!options.truth.empty())
     return read_truth_folders(split_list(options.truth), split_list(options.bodies));
   std::vector<TruthFrame> frames;
-  for (BodyPoses& poses : read_log(options, options.truth_channel).frames)
-    frames.push_back({std::move(poses), {}});
+  std::set<std::pair<std::string, std::int64_t>> read;
+  for (BodyPoses& poses : read_log(options, options.truth_channel).frames) {
+    const bool is_new = read.emplace(poses.stamp.sensor, poses.stamp.utime).second;
+    if (is_new) frames.push_back({std::move(poses), {}});  // else heard by two loggers
+  }
   if (frames.empty())
     throw UsageError(options.log + ": carries no truth on " + options.truth_channel +
                      "; give the folder of the truth with --truth");

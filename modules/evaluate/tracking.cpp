@@ -7,9 +7,12 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "common/units.hpp"
 #include "modules/evaluate/matching.hpp"
+#include "modules/evaluate/reported_frames.hpp"
 #include "modules/evaluate/statistics.hpp"
 
 namespace limbcast::evaluate {
@@ -29,12 +32,6 @@ using Life = std::vector<Moment>;
 
 double seconds_between(const Moment& a, const Moment& b) {
   return static_cast<double>(b.utime - a.utime) / kMicrosecondsPerSecond<double>;
-}
-
-std::map<std::int64_t, const BodyPoses*> by_utime(const std::vector<BodyPoses>& frames) {
-  std::map<std::int64_t, const BodyPoses*> found;
-  for (const BodyPoses& frame : frames) found[frame.stamp.utime] = &frame;
-  return found;
 }
 
 /// What tells true persons of a frame apart.
@@ -59,7 +56,7 @@ class Lives {
     const std::vector<int> who = identities(truth.persons);
     for (std::size_t i = 0; i < truth.persons.size(); ++i) {
       const Moment moment{truth.stamp.utime, &truth.persons[i], in_untracked[i], in_tracked[i]};
-      Life& life = present_[who[i]];
+      Life& life = present_[{truth.stamp.sensor, who[i]}];
       if (!life.empty() && is_cut(life.back(), moment)) finish(life);
       life.push_back(moment);
     }
@@ -91,7 +88,7 @@ class Lives {
   }
 
   const TrackingParams& params_;
-  std::map<int, Life> present_;
+  std::map<std::pair<std::string, int>, Life> present_;  ///< by sensor and person
   std::vector<Life> finished_;
 };
 
@@ -275,16 +272,11 @@ TrackingTally evaluate_tracking(const std::vector<TruthFrame>& truth,
                                 const std::vector<BodyPoses>& untracked,
                                 const std::vector<BodyPoses>& tracked,
                                 const TrackingParams& params) {
-  const auto untracked_at = by_utime(untracked), tracked_at = by_utime(tracked);
-  const auto find = [](const auto& frames, std::int64_t utime) {
-    const auto found = frames.find(utime);
-    return found == frames.end() ? nullptr : found->second;
-  };
+  const ReportedFrames untracked_frames(untracked), tracked_frames(tracked);
   Lives lives(params);
-  for (const TruthFrame& frame : truth) {
-    const std::int64_t utime = frame.poses.stamp.utime;
-    lives.add(frame.poses, find(untracked_at, utime), find(tracked_at, utime));
-  }
+  for (const TruthFrame& frame : truth)
+    lives.add(frame.poses, untracked_frames.at(frame.poses.stamp),
+              tracked_frames.at(frame.poses.stamp));
   TrackingTally tally;
   for (const Life& life : lives.take()) add_life(life, params, tally);
   return tally;

@@ -34,8 +34,9 @@ struct TrackingTally {
   Groups lags_frames;
 };
 
-/// Compares untracked and tracked poses with the truth. Frames are paired by utime; true persons
-/// are told apart by their id, or by their place in the frame where ids are all the same.
+/// Compares untracked and tracked poses with the truth. Frames are paired as by evaluate(); true
+/// persons of a sensor are told apart by their id, or by their place in the frame where ids are all
+/// the same.
 TrackingTally evaluate_tracking(const std::vector<TruthFrame>& truth,
                                 const std::vector<BodyPoses>& untracked,
                                 const std::vector<BodyPoses>& tracked,

@@ -4,6 +4,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -63,7 +64,17 @@ bool any_person_counts(const std::vector<TruthFrame>& frames) {
 std::vector<TruthFrame> read_truth_folders(const std::vector<std::string>& folders,
                                            const std::vector<std::string>& bodies) {
   std::vector<TruthFrame> frames;
-  for (const std::string& path : truth_files(folders)) frames.push_back(read_frame(path, bodies));
+  std::map<std::int64_t, std::string> path_at;
+  for (const std::string& path : truth_files(folders)) {
+    frames.push_back(read_frame(path, bodies));
+    const std::int64_t utime = frames.back().poses.stamp.utime;
+    const auto [first, is_new] = path_at.emplace(utime, path);
+    if (!is_new)
+      throw InputError(path + ": has the same utime (" + std::to_string(utime) + ") as " +
+                       first->second +
+                       ", so that one report would count twice; leave out one of the folders or "
+                       "files");
+  }
   if (!bodies.empty() && !any_person_counts(frames))
     throw InputError("no person of the truth has one of the bodies; see \"body\" in NAME_gt.json");
   std::stable_sort(frames.begin(), frames.end(), [](const TruthFrame& a, const TruthFrame& b) {

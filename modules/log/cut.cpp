@@ -68,9 +68,11 @@ class Selection {
     return stamp ? is_frame_kept(stamp->utime) : frame_times_.holds(event.utime);
   }
 
+  /// What a logger has written since the first pass is no part of the log.
   bool is_frame_kept(std::int64_t frame_utime) const {
-    const int number = frames_.at(frame_utime);
-    return number >= options_.from_frame && (options_.to_frame < 0 || number <= options_.to_frame);
+    const auto frame = frames_.find(frame_utime);
+    return frame != frames_.end() && frame->second >= options_.from_frame &&
+           (options_.to_frame < 0 || frame->second <= options_.to_frame);
   }
 
   const CutOptions& options_;

@@ -96,6 +96,17 @@ std::string chosen_sensor(const ExtractOptions& options) {
   return *sensors.begin();
 }
 
+std::string so_far(const ExtractOptions& options, std::int64_t frames) {
+  return options.folder + " holds the " + std::to_string(frames) + " frames extracted so far";
+}
+
+/// What was written of a frame whose second file could not be.
+void remove_begun(const std::string& path) {
+  std::error_code ignored;
+  for (const char* ending : {"_left.jpg", "_left.png", "_color.jpg", "_color.png"})
+    std::filesystem::remove(path + ending, ignored);
+}
+
 /// Writes the frames of one sensor into a folder.
 class FrameWriter {
  public:
@@ -107,17 +118,15 @@ class FrameWriter {
   }
 
   void take(const LogEvent& event) {
-    const MessageSummary summary = summarize(event);
-    if (summary.type == stereo_calibration_t::getTypeName()) return take_calibration(event);
-    if (!summary.stamp || summary.stamp->sensor != sensor_) return;
-    if (event.channel == options_.truth_channel && summary.type == body_poses_t::getTypeName())
-      return take_truth(event);
-    if (types_of(options_.what).count(summary.type) == 0) return;
-    const Stamp stamp = lcm_io::from_message(*summary.stamp);
-    if (written_.count(stamp.utime) > 0) return;  // heard by two loggers
-    write(event, summary.type, options_.folder + "/" + frame_name(stamp));
-    written_.insert(stamp.utime);
-    stamps_.push_back(stamp);
+    try {
+      take_in(event);
+    } catch (const lcm_io::MessageError&) {
+      throw;
+    } catch (const std::exception& error) {
+      // The times need far less room than a frame does; where there is none either, that is said.
+      const std::int64_t frames = finish(true);
+      throw std::runtime_error(std::string(error.what()) + "; " + so_far(options_, frames));
+    }
   }
 
   std::int64_t finish(bool /*interrupted*/) {
@@ -132,6 +141,26 @@ class FrameWriter {
   }
 
  private:
+  void take_in(const LogEvent& event) {
+    const MessageSummary summary = summarize(event);
+    if (summary.type == stereo_calibration_t::getTypeName()) return take_calibration(event);
+    if (!summary.stamp || summary.stamp->sensor != sensor_) return;
+    if (event.channel == options_.truth_channel && summary.type == body_poses_t::getTypeName())
+      return take_truth(event);
+    if (types_of(options_.what).count(summary.type) == 0) return;
+    const Stamp stamp = lcm_io::from_message(*summary.stamp);
+    if (written_.count(stamp.utime) > 0) return;  // heard by two loggers
+    const std::string path = options_.folder + "/" + frame_name(stamp);
+    try {
+      write(event, summary.type, path);
+    } catch (...) {
+      remove_begun(path);
+      throw;
+    }
+    written_.insert(stamp.utime);
+    stamps_.push_back(stamp);
+  }
+
   void take_calibration(const LogEvent& event) {
     const auto message = decode<stereo_calibration_t>(event.data);
     if (has_calibration_ || options_.what != Extracted::kImages || message.sensor != sensor_)
@@ -253,9 +282,7 @@ ExtractSummary extract_with(Writer& writer, const ExtractOptions& options) {
   }
   const bool interrupted = !reader.at_end();
   summary.frames = writer.finish(interrupted);
-  if (interrupted)
-    throw std::runtime_error("interrupted; " + options.folder + " holds the " +
-                             std::to_string(summary.frames) + " frames extracted so far");
+  if (interrupted) throw std::runtime_error("interrupted; " + so_far(options, summary.frames));
   summary.torn_bytes = reader.torn_bytes();
   summary.damaged_bytes = reader.damaged_bytes();
   return summary;

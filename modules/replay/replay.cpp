@@ -143,9 +143,9 @@ class Replay {
   bool begins_chain(const LogEvent& event) const {
     const auto level = chain_.level_of(event.channel);
     if (!level || !may_begin(*level)) return false;
-    const auto frame = chain_.frame_of(event);
-    // A malformed message goes through the chain as a frame, which names what is wrong with it.
-    return !frame || contents_.first_level.at(frame->sensor) == *level;
+    // A malformed message goes through the chain as a frame, which names what is wrong with it. The
+    // first frames of a sensor that a logger has written since the first pass do not.
+    return !chain_.frame_of(event) || first_level_of(event) == level;
   }
 
   /// A frame that the log holds twice, as two hosts heard it, is worked on once.

@@ -163,6 +163,7 @@ void refuse_options_of_others(const SimulateOptions& options, const config::Pars
   const bool stereo_depth = options.sensor == "stereo-depth", depth = options.sensor == "depth";
   const bool to_folder = !options.output.empty();
   const bool live = !to_folder && options.log.empty();
+  const bool has_people = options.report || options.set != "nohuman" || options.persons > 0;
   struct Owner {
     bool is_chosen;
     const char* name;
@@ -189,9 +190,13 @@ void refuse_options_of_others(const SimulateOptions& options, const config::Pars
       {stereo_depth || depth,
        "for the sensors stereo-depth and depth only",
        {"noise", "color", "depth-images-channel"}},
-      {options.set != "sequence",
+      {options.report || options.set != "sequence",
        "for other sets than sequence",
-       {"min-distance-m", "occluder-share"}},
+       {"min-distance-m", "occluder-share", "head-above-share"}},
+      // Distances may be a camera's that sees people in other sets.
+      {has_people,
+       "for frames with people only",
+       {"occluder-share", "head-above-share", "child-share", "coat-share"}},
       {live, "for live frames only", {"rate"}},
       {!to_folder,
        "for logs and live frames only",

@@ -1,11 +1,14 @@
 #include "modules/viewer/frame_assembler.hpp"
 
-#include <iterator>
+#include <algorithm>
 
 namespace limbcast::viewer {
 
 ViewFrame& FrameAssembler::frame_of(const Stamp& stamp) {
-  ViewFrame& frame = frames_[{stamp.utime, stamp.sensor}];
+  const Key key(stamp.utime, stamp.sensor);
+  const auto known = std::find_if(frames_.begin(), frames_.end(),
+                                  [&key](const Entry& entry) { return entry.key == key; });
+  ViewFrame& frame = (known != frames_.end() ? *known : frames_.emplace_back(Entry{key, {}})).frame;
   // The chain finds gravity on the way; the truth's may be another one.
   if (frame.stamp.utime == 0) frame.stamp = stamp;
   return frame;
@@ -32,8 +35,8 @@ void FrameAssembler::add_truth(BodyPoses truth) {
   frame.truth = std::move(truth);
 }
 
-std::optional<ViewFrame> FrameAssembler::take(std::map<Key, ViewFrame>::iterator place) {
-  ViewFrame frame = std::move(place->second);
+std::optional<ViewFrame> FrameAssembler::take(std::list<Entry>::iterator place) {
+  ViewFrame frame = std::move(place->frame);
   frames_.erase(place);
   if (!frame.cloud && !frame.segments && !frame.poses) return std::nullopt;
   frame.number = num_taken_++;
@@ -45,7 +48,7 @@ std::optional<ViewFrame> FrameAssembler::next() {
     if (auto frame = take(frames_.begin())) return frame;
   }
   for (auto place = frames_.begin(); place != frames_.end(); ++place) {
-    if (place->second.poses) return take(place);
+    if (place->frame.poses) return take(place);
   }
   return std::nullopt;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,22 +18,27 @@ class FrameAssembler {
   void add(BodyPoses poses);
   void add_truth(BodyPoses truth);
 
-  /// The next frame that is ready, oldest first: one with poses, or one for whose poses it waited
-  /// too long. Frames of which only the truth came are dropped.
+  /// The next frame that is ready, the one that came first: one with poses, or one for whose poses
+  /// it waited too long. Frames of which only the truth came are dropped.
   std::optional<ViewFrame> next();
   /// Where nothing more comes: the next of the frames that are left.
   std::optional<ViewFrame> next_at_end();
 
  private:
   using Key = std::pair<std::int64_t, std::string>;  ///< utime, sensor
+  struct Entry {
+    Key key;
+    ViewFrame frame;
+  };
   /// Frames in the making; bounds the memory where poses never come.
   static constexpr int kGiveUp = 24;
 
   ViewFrame& frame_of(const Stamp& stamp);
-  std::optional<ViewFrame> take(std::map<Key, ViewFrame>::iterator place);
+  std::optional<ViewFrame> take(std::list<Entry>::iterator place);
 
   int num_taken_ = 0;
-  std::map<Key, ViewFrame> frames_;
+  /// As they came: the times of a recording that is played again jump back.
+  std::list<Entry> frames_;
 };
 
 }  // namespace limbcast::viewer

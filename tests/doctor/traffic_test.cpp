@@ -99,6 +99,13 @@ TEST(CheckModules, NotesAModuleOfTheChainThatRunsTwice) {
               Contains(Field(&Finding::text, HasSubstr("runs 2 times: b c"))));
 }
 
+TEST(CheckModules, NotesATrackerThatRunsTwice) {
+  Traffic traffic;
+  traffic.reports = {report("tracker", "b"), report("tracker", "c")};
+  EXPECT_THAT(check_modules(traffic, {"tracker"}),
+              Contains(Field(&Finding::text, HasSubstr("runs 2 times: b c"))));
+}
+
 TEST(CheckClocks, JudgesByTheMessageThatTookTheShortestWay) {
   Traffic traffic;
   traffic.reports = {report("segmenter", "b"), report("segmenter", "b")};

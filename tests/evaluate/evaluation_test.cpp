@@ -29,6 +29,16 @@ TEST(Evaluate, FindsNoFaultInTheTruth) {
   EXPECT_TRUE(tally.findings.empty());
 }
 
+TEST(Evaluate, KeepsSensorsApartThatTakeDataAtTheSameTime) {
+  BodyPoses front = frame({pointing_figure()}), rear = frame({});
+  front.stamp.sensor = "front";
+  rear.stamp.sensor = "rear";
+  const Tally tally = evaluate({{front, {}}, {rear, {}}}, {front, rear});
+  EXPECT_EQ(tally.found.count, 1);
+  EXPECT_EQ(tally.invented, 0);
+  EXPECT_EQ(tally.frames_not_reported, 0);
+}
+
 TEST(Evaluate, CountsADirectionWithinFifteenDegreesAsRight) {
   EXPECT_EQ(tally_of({pointing_figure()}, {pointing_figure(14.9F)}).pointing_right.count, 1);
   const Tally inexact = tally_of({pointing_figure()}, {pointing_figure(15.1F)});

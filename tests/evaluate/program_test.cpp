@@ -210,6 +210,16 @@ TEST(EvaluateProgram, JudgesALogOfARoomWithoutPeople) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST(EvaluateProgram, CountsOnceWhatTwoLoggersHeard) {
+  const TemporaryFolder folder;
+  lcm_io::LogWriter log(folder / "out.log");
+  for (const char* channel : {"GROUND_TRUTH", "GROUND_TRUTH", "BODY_POSES", "BODY_POSES"})
+    log.write(0, channel, lcm_io::to_message(stamped(frame({pointing_figure()}, 0))));
+  log.close();
+  EXPECT_THAT(evaluate_program({folder / "out.log", "--brief"}).out,
+              StartsWith("accuracy on 1 frames: "));
+}
+
 TEST(EvaluateProgram, GoesOnWithATornLog) {
   const TemporaryFolder folder;
   write_log(folder / "out.log", true);

@@ -56,6 +56,19 @@ TEST(EvaluateTracking, CountsNoSwitchWhereAnotherRecordingBegins) {
   EXPECT_EQ(recording.tally().identity_switches, 0);
 }
 
+TEST(EvaluateTracking, FollowsPeopleOfEachSensorByThemselves) {
+  Recording recording;
+  for (int i = 0; i < 4; ++i) {
+    const bool front = i % 2 == 0;
+    recording.add(standing_figure(), standing_figure(), numbered(standing_figure(), front ? 1 : 2));
+    for (BodyPoses* poses :
+         {&recording.truth.back().poses, &recording.untracked.back(), &recording.tracked.back()})
+      poses->stamp.sensor = front ? "front" : "rear";
+  }
+  EXPECT_EQ(recording.tally().identity_switches, 0);
+  EXPECT_EQ(recording.tally().followed, 4);
+}
+
 TEST(EvaluateTracking, TellsWhatIsLeftOfTheJitterOfJointsAtRest) {
   Recording recording;
   for (int i = 0; i < 10; ++i) {

@@ -43,6 +43,21 @@ TEST(TruthFolder, WithoutTruthIsAnError) {
   EXPECT_THROW(read_truth_folders({folder.path()}), InputError);
 }
 
+TEST(TruthFolder, WhoseTimesAreAnothersIsRefused) {
+  const limbcast::test::TemporaryFolder folder;
+  folder.write("a/1_gt.json", R"({"utime":10,"persons":[]})");
+  folder.write("b/1_gt.json", R"({"utime":20,"persons":[]})");
+  folder.write("b/2_gt.json", R"({"utime":10,"persons":[]})");
+  const std::string a = folder.path() + "/a", b = folder.path() + "/b";
+  EXPECT_EQ(limbcast::test::error_of<InputError>([&] {
+              read_truth_folders({a, b});
+            }),
+            b + "/2_gt.json: has the same utime (10) as " + a +
+                "/1_gt.json, so that one report would count twice; leave out one of the folders or "
+                "files");
+  EXPECT_THROW(read_truth_folders({a, a}), InputError);
+}
+
 TEST(SplitList, DropsEmptyParts) {
   EXPECT_THAT(split_list("a,,b,"), ElementsAre("a", "b"));
   EXPECT_TRUE(split_list("").empty());

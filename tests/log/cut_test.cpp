@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
+#include <thread>
 
 #include "common/config/options.hpp"
 #include "tests/log/logs.hpp"
@@ -62,6 +64,28 @@ TEST_F(Cut, ByFramesKeepsWhatStandsBetweenThem) {
   ASSERT_EQ(after.size(), 5U);
   EXPECT_TRUE(same(after.front(), before[7]));
   EXPECT_TRUE(same(after.back(), before[11]));
+}
+
+TEST_F(Cut, ByFramesOfALogThatIsStillWrittenEndsWhereTheLogEndedAtTheBegin) {
+  lcm_io::LogWriter log(in_);
+  int num_frames = 0;
+  const auto write_frame = [&] {
+    log.write(kBegin + num_frames * kFrame_us, "BODY_POSES", poses_of_frame(num_frames));
+    ++num_frames;
+  };
+  while (num_frames < 1000) write_frame();
+  std::atomic<bool> ends = false;
+  std::thread logger([&] {
+    while (!ends) write_frame();
+  });
+  options_.from_frame = 500;
+  EXPECT_NO_THROW(cut(options_));
+  ends = true;
+  logger.join();
+  const auto kept = events_in(out_);
+  ASSERT_FALSE(kept.empty());
+  EXPECT_EQ(kept.front().number, 500);
+  EXPECT_EQ(kept.back().number, 499 + static_cast<int>(kept.size()));
 }
 
 TEST_F(Cut, KeepsTheLastCalibrationOfEachCameraBeforeThePart) {

@@ -239,6 +239,43 @@ TEST_F(Extract, OfPosesSaysThatTheDiskIsFull) {
                   "or choose another folder\n");
 }
 
+/// A log of two pairs, of which the last picture alone has more than 10 kB.
+void write_two_pairs(const std::string& path) {
+  lcm_io::LogWriter log(path);
+  for (int i = 0; i < 2; ++i) {
+    stereo_images_t pair{};
+    pair.stamp = poses_of_frame(i).stamp;
+    pair.left.encoding = pair.right.encoding = image_t::JPEG;
+    pair.left.data.resize(100);
+    pair.right.data.resize(i == 0 ? 100 : 20'000);
+    for (image_t* image : {&pair.left, &pair.right})
+      image->size = static_cast<std::int32_t>(image->data.size());
+    log.write(pair.stamp.utime, "STEREO_IMAGES", pair);
+  }
+  log.close();
+}
+
+TEST_F(Extract, OntoAFullDiskLeavesARecordingOfTheFramesSoFar) {
+  write_two_pairs(log_);
+  const auto extract_onto_a_full_disk = [this] {
+    test::let_files_grow_to(10'000);
+    run_and_exit([this] { extract(options(log_, Extracted::kImages)); });
+  };
+  EXPECT_EXIT(extract_onto_a_full_disk(), ::testing::ExitedWithCode(1),
+              "log: " + out_ +
+                  "/0001000000100000_right.jpg: cannot be written \\(File too large\\); " + out_ +
+                  " holds the 1 frames extracted so far\n");
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(out_))
+    names.push_back(file.path().filename());
+  EXPECT_THAT(names,
+              ::testing::UnorderedElementsAre("0001000000000000_left.jpg",
+                                              "0001000000000000_right.jpg", "timestamps.csv"));
+  const std::vector<char> times = bytes_of(out_ + "/timestamps.csv");
+  EXPECT_EQ(std::string(times.begin(), times.end()),
+            "name,utime\n0001000000000000,1000000000000\n");
+}
+
 TEST_F(Extract, AsksForAFolderWhereAFileIsGiven) {
   const std::string in = test::repository_file("logs/nobody.log");
   ExtractOptions onto_file = options(in, Extracted::kImages);

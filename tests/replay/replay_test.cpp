@@ -11,7 +11,9 @@
 #include <limbcast/module_status_t.hpp>
 #include <limbcast/stereo_images_t.hpp>
 
+#include "common/lcm_io/body_poses_codec.hpp"
 #include "common/lcm_io/decode.hpp"
+#include "common/lcm_io/encode.hpp"
 #include "common/lcm_io/module.hpp"
 #include "tests/replay/log_tools.hpp"
 #include "tests/support/child_process.hpp"
@@ -197,6 +199,28 @@ TEST_F(ReplayProgram, ReplaysWhatATornLogHolds) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.output, HasSubstr("is torn, its last"));
   EXPECT_THAT(on_channel(events_of(path("out.log")), "BODY_POSES"), SizeIs(1));
+}
+
+TEST_F(ReplayProgram, GoesOnWhereALoggerAddsASensorMeanwhile) {
+  std::vector<LogEvent> events;
+  for (int i = 0; i <= 10; ++i) {
+    BodyPoses poses;
+    poses.stamp.utime = i;
+    poses.stamp.sensor = i < 10 ? "front" : "rear";
+    events.push_back({i, "BODY_POSES", lcm_io::encode(lcm_io::to_message(poses))});
+  }
+  ReplayOptions options;
+  options.in = write("in.log", events);
+  options.out = path("out.log");
+  options.from = Level::kPoses;
+  options.track = true;
+  // What the logger has written at the begin ends within the event of the second sensor.
+  const auto whole_bytes = std::filesystem::file_size(options.in);
+  std::filesystem::resize_file(options.in, whole_bytes - 10);
+  limbcast::replay::replay(options, ChainOptions{}, [&](int done, int) {
+    if (done == 1) write("in.log", events);
+  });
+  EXPECT_TRUE(same(on_channel(events_of(options.out), "BODY_POSES"), events));
 }
 
 TEST_F(ReplayProgram, EndsWithTwoForLogsThatCannotBeUsed) {

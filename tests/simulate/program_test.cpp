@@ -159,6 +159,12 @@ TEST(SimulateUsage, RefusesOptionsThatWouldSayNothing) {
                   "stereo-images-channel (for the sensor stereo only)");
   expect_left_out("depth", {"--set", "sequence", "--occluder-share", "1"},
                   "occluder-share (for other sets than sequence)");
+  expect_left_out("depth", {"--set", "sequence", "--head-above-share", "1"},
+                  "head-above-share (for other sets than sequence)");
+  expect_left_out(
+      "depth",
+      {"--set", "nohuman", "--coat-share", "1", "--head-above-share", "1", "--max-distance-m", "3"},
+      "head-above-share, coat-share (for frames with people only)");
   expect_left_out("depth", {"--report-to-m", "5"}, "report-to-m (with --report only)");
   expect_left_out("depth", {"--log", folder + "/in.log", "--rate", "5"},
                   "rate (for live frames only)");

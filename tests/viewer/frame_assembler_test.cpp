@@ -52,5 +52,21 @@ TEST(FrameAssembler, GivesUpOnFramesWithoutPoses) {
   EXPECT_GT(num_frames, 50);
 }
 
+TEST(FrameAssembler, PutsMessagesTogetherAfterTheClockWasSetBack) {
+  FrameAssembler assembler;
+  for (int i = 0; i < 100; ++i) {  // of a camera that the chain was too slow for
+    assembler.add_truth(pointing_arm(1000 + i));
+    EXPECT_FALSE(assembler.next());
+  }
+  assembler.add_truth(pointing_arm(7));
+  EXPECT_FALSE(assembler.next());
+  assembler.add(wall(7));
+  EXPECT_FALSE(assembler.next()) << "the poses are still to come";
+  assembler.add(pointing_arm(7));
+  const auto frame = assembler.next();
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->cloud && frame->poses && frame->truth);
+}
+
 }  // namespace
 }  // namespace limbcast::viewer
