@@ -73,6 +73,18 @@ std::string why_no_setting(const std::string& line) {
                  : "is no text; give a configuration file to --config";
 }
 
+/// A module would hear itself: its results would be taken for what they are made from.
+void check_channels(const Section& section) {
+  for (const Section::Channel& output : section.outputs()) {
+    for (const Section::Channel& input : section.inputs()) {
+      if (*output.name == *input.name)
+        throw UsageError("'" + output.key + "' is '" + *output.name + "', as '" + input.key +
+                         "' is, so that [" + section.name() +
+                         "] would read what it writes; give one of them another name");
+    }
+  }
+}
+
 }  // namespace
 
 Parser::Parser(std::string program, std::string purpose)
@@ -120,6 +132,7 @@ bool Parser::parse(int argc, const char* const* argv, std::ostream& out) {
   }
   assign_positionals(positional_values);
   if (!common_.config_file.empty()) read_config_file(common_.config_file);
+  for (const Bound& bound : sections_) check_channels(*bound.section);
   return true;
 }
 

@@ -106,6 +106,18 @@ void Section::add_channel(const std::string& key, std::string& target, const std
                       }});
 }
 
+void Section::add_input_channel(const std::string& key, std::string& target,
+                                const std::string& help) {
+  add_channel(key, target, "input: " + help);
+  inputs_.push_back({key, &target});
+}
+
+void Section::add_output_channel(const std::string& key, std::string& target,
+                                 const std::string& help) {
+  add_channel(key, target, "output: " + help);
+  outputs_.push_back({key, &target});
+}
+
 void Section::add(const std::string& key, bool& target, const std::string& help) {
   entries_.push_back({key, "", help, target ? "true" : "false", "true or false", true,
                       [&target](const std::string& text) { target = parsed_bool(text); }});

@@ -36,8 +36,16 @@ class Section {
     std::function<void(const std::string& text)> assign;
   };
 
+  /// A channel with its present name.
+  struct Channel {
+    std::string key;
+    const std::string* name;
+  };
+
   const std::string& name() const { return name_; }
   const std::vector<Entry>& entries() const { return entries_; }
+  const std::vector<Channel>& inputs() const { return inputs_; }
+  const std::vector<Channel>& outputs() const { return outputs_; }
   void add(const std::string& key, double& target, const std::string& unit, const std::string& help,
            Range<double> range = {});
   void add(const std::string& key, float& target, const std::string& unit, const std::string& help,
@@ -50,6 +58,9 @@ class Section {
   void add_name(const std::string& key, std::string& target, const std::string& help);
   /// The name of an LCM channel.
   void add_channel(const std::string& key, std::string& target, const std::string& help);
+  /// The same of one that the module reads or writes; the parser refuses a name that is both.
+  void add_input_channel(const std::string& key, std::string& target, const std::string& help);
+  void add_output_channel(const std::string& key, std::string& target, const std::string& help);
   /// true/false; on the command line the bare key means true, and false is "--key=false".
   void add(const std::string& key, bool& target, const std::string& help);
   void add_choice(const std::string& key, std::string& target,
@@ -62,6 +73,7 @@ class Section {
 
   std::string name_;
   std::vector<Entry> entries_;
+  std::vector<Channel> inputs_, outputs_;
 };
 
 }  // namespace limbcast::config

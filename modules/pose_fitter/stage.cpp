@@ -7,8 +7,8 @@ namespace limbcast::pose_fitter {
 
 void declare(config::Section& section, StageOptions& options) {
   declare(section, options.algorithm);
-  section.add_channel("segments-channel", options.segments_channel, "input: person candidates");
-  section.add_channel("body-poses-channel", options.body_poses_channel, "output: poses of people");
+  section.add_input_channel("segments-channel", options.segments_channel, "person candidates");
+  section.add_output_channel("body-poses-channel", options.body_poses_channel, "poses of people");
 }
 
 body_poses_t Stage::process(const segments_t& segments) const {

@@ -55,15 +55,14 @@ std::string Stage::warning() const {
 
 void declare(config::Section& section, StageOptions& options) {
   declare(section, options.algorithm);
-  section.add_channel("stereo-images-channel", options.stereo_images_channel,
-                      "input: stereo pairs");
-  section.add_channel("stereo-calibration-channel", options.stereo_calibration_channel,
-                      "input: their calibration");
-  section.add_channel("depth-images-channel", options.depth_images_channel,
-                      "input: frames of a depth camera");
-  section.add_channel("point-cloud-channel", options.point_cloud_channel, "output: point clouds");
-  section.add_channel("segments-channel", options.segments_channel,
-                      "input: what is made of the clouds; no more are made than are taken");
+  section.add_input_channel("stereo-images-channel", options.stereo_images_channel, "stereo pairs");
+  section.add_input_channel("stereo-calibration-channel", options.stereo_calibration_channel,
+                            "their calibration");
+  section.add_input_channel("depth-images-channel", options.depth_images_channel,
+                            "frames of a depth camera");
+  section.add_output_channel("point-cloud-channel", options.point_cloud_channel, "point clouds");
+  section.add_input_channel("segments-channel", options.segments_channel,
+                            "what is made of the clouds; no more are made than are taken");
 }
 
 void Stage::on_calibration(stereo_calibration_t message) {

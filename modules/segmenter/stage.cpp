@@ -7,10 +7,10 @@ namespace limbcast::segmenter {
 
 void declare(config::Section& section, StageOptions& options) {
   declare(section, options.algorithm);
-  section.add_channel("point-cloud-channel", options.point_cloud_channel, "input: point clouds");
-  section.add_channel("segments-channel", options.segments_channel, "output: person candidates");
-  section.add_channel("body-poses-channel", options.body_poses_channel,
-                      "input: what is made of the candidates; no more are made than are taken");
+  section.add_input_channel("point-cloud-channel", options.point_cloud_channel, "point clouds");
+  section.add_output_channel("segments-channel", options.segments_channel, "person candidates");
+  section.add_input_channel("body-poses-channel", options.body_poses_channel,
+                            "what is made of the candidates; no more are made than are taken");
 }
 
 segments_t Stage::process(const point_cloud_t& cloud) const {

@@ -16,13 +16,13 @@ namespace limbcast::simulate {
 namespace {
 
 void declare(config::Section& section, Channels& channels) {
-  section.add_channel("stereo-images-channel", channels.stereo_images, "output: pairs");
-  section.add_channel("stereo-calibration-channel", channels.stereo_calibration,
-                      "output: their calibration");
-  section.add_channel("depth-images-channel", channels.depth_images,
-                      "output: frames of a depth camera");
-  section.add_channel("point-cloud-channel", channels.point_cloud, "output: clouds of a laser");
-  section.add_channel("truth-channel", channels.truth, "output: the truth");
+  section.add_output_channel("stereo-images-channel", channels.stereo_images, "pairs");
+  section.add_output_channel("stereo-calibration-channel", channels.stereo_calibration,
+                             "their calibration");
+  section.add_output_channel("depth-images-channel", channels.depth_images,
+                             "frames of a depth camera");
+  section.add_output_channel("point-cloud-channel", channels.point_cloud, "clouds of a laser");
+  section.add_output_channel("truth-channel", channels.truth, "the truth");
 }
 
 /// Calls `take` with each frame until all are made or the program is told to end; how many.

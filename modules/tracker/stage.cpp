@@ -42,9 +42,9 @@ void declare(config::Section& section, StageOptions& options) {
   declare_prediction(section, options.algorithm.prediction);
   declare_smoothing(section, "joints", "m/s", options.algorithm.joints);
   declare_smoothing(section, "pointing", "rad/s", options.algorithm.pointing);
-  section.add_channel("body-poses-channel", options.body_poses_channel, "input: poses of people");
-  section.add_channel("tracked-poses-channel", options.tracked_poses_channel,
-                      "output: the same with identities, smoothed");
+  section.add_input_channel("body-poses-channel", options.body_poses_channel, "poses of people");
+  section.add_output_channel("tracked-poses-channel", options.tracked_poses_channel,
+                             "the same with identities, smoothed");
 }
 
 std::optional<body_poses_t> Stage::process(const body_poses_t& poses) {

@@ -104,6 +104,19 @@ TEST_F(OptionsTest, KnowsWhatStoodOnTheCommandLine) {
   EXPECT_FALSE(parser_.on_command_line("verbose"));
 }
 
+TEST_F(OptionsTest, RefusesAChannelThatIsReadAndWritten) {
+  std::string input = "SEGMENTS", output = "POSES";
+  section_.add_input_channel("segments-channel", input, "read");
+  section_.add_output_channel("poses-channel", output, "written");
+  EXPECT_EQ(error_of({"in.log", "--images-channel=POSES"}), "");
+  const std::string file = config_file("[pose_fitter]\nsegments_channel = POSES\n");
+  EXPECT_EQ(
+      error_of({"in.log", "--config", file.c_str()}),
+      "'poses-channel' is 'POSES', as 'segments-channel' is, so that [pose_fitter] would read "
+      "what it writes; give one of them another name");
+  EXPECT_EQ(error_of({"in.log", "--config", file.c_str(), "--poses-channel=BODIES"}), "");
+}
+
 TEST_F(OptionsTest, NamesKeyValueAndRangeOfAValueOutOfRange) {
   const std::string error = error_of({"in.log", "--d-max-m=7"});
   EXPECT_THAT(error, HasSubstr("d-max-m"));

@@ -38,6 +38,30 @@ TEST_P(EveryProgram, RefusesAMissingConfigurationFile) {
   EXPECT_EQ(result.exit_code, kWrongUsage) << result.output;
 }
 
+TEST(Channels, ThatAModuleWouldReadAndWriteAreRefusedInOneLine) {
+  const std::string in = temporary_folder("channels") + "/in.log", out = in + ".out";
+  const auto refusal_of = [](const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), program(name));
+    arguments.insert(arguments.end(), {"--lcm-url", "none"});
+    const RunResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, kWrongUsage);
+    return result.output;
+  };
+  EXPECT_EQ(refusal_of("limbcast-tracker",
+                       {"--body-poses-channel", "POSES", "--tracked-poses-channel", "POSES"}),
+            "limbcast-tracker: 'tracked-poses-channel' is 'POSES', as 'body-poses-channel' is, so "
+            "that [tracker] would read what it writes; give one of them another name\n");
+  EXPECT_THAT(refusal_of("limbcast-reconstructor", {"--point-cloud-channel", "STEREO_IMAGES"}),
+              HasSubstr("'point-cloud-channel' is 'STEREO_IMAGES', as 'stereo-images-channel' is"));
+  EXPECT_THAT(refusal_of("limbcast-segmenter", {"--segments-channel", "POINT_CLOUD"}),
+              HasSubstr("'segments-channel' is 'POINT_CLOUD', as 'point-cloud-channel' is"));
+  EXPECT_THAT(refusal_of("limbcast-pose-fitter", {"--segments-channel", "BODY_POSES"}),
+              HasSubstr("'body-poses-channel' is 'BODY_POSES', as 'segments-channel' is"));
+  EXPECT_THAT(refusal_of("limbcast-replay",
+                         {in, out, "--tracker", "--tracker.tracked-poses-channel=BODY_POSES"}),
+              HasSubstr("so that [tracker] would read what it writes"));
+}
+
 TEST(LcmUrl, IsRefusedInOneLineWhereItIsMalformed) {
   const RunResult result = run({program("limbcast-segmenter"), "--lcm-url", "udpm://239.1.2.3"});
   EXPECT_EQ(result.exit_code, kWrongUsage);
