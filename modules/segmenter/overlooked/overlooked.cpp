@@ -61,18 +61,23 @@ std::optional<HeadCandidate> tell_head(const Scene& scene, const AskedHeads& ask
   const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(head.center_m);
   const auto pose = see(head_m, std::min(guess_odds, lowest.min_person_odds));
   if (!pose) return std::nullopt;
+  const auto is_seen = [&limits](const PoseInDepths& body) {
+    return body.visibilities[index(Joint::kHead)] >= limits.min_head_visibility;
+  };
   const Eigen::Vector3f& seen_m = pose->places_m[index(Joint::kHead)];
   const float error_m = (seen_m - head_m).norm();
   if (asked.heads_move && error_m >= limits.min_moved_m) {
-    if (const auto again = see(seen_m, asked.limits.min_person_odds)) {
-      auto moved = head_near(scene.lattice,
-                             scene.lattice.frame.to_level(again->places_m[index(Joint::kHead)]));
-      if (moved) {
+    const auto again = see(seen_m, asked.limits.min_person_odds);
+    if (again && is_seen(*again)) {
+      const Eigen::Vector3f& again_m = again->places_m[index(Joint::kHead)];
+      if (auto moved = head_near(scene.lattice, scene.lattice.frame.to_level(again_m))) {
         moved->kind = head.kind;
         return moved;
       }
     }
   }
+  if (asked.heads_move && head.odds < limits.min_unseen_head_odds && !is_seen(*pose))
+    return std::nullopt;
   const auto meets = [&](const BodyLimits& wanted) {
     return log_odds(pose->person_score) >= wanted.min_person_odds &&
            error_m < wanted.max_head_error_m;
