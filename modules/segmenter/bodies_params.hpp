@@ -81,6 +81,8 @@ struct SplitBodyParams {
   /// A head so far from the seed is put right [m]: of 50 such (people who bend down, stand, sit and
   /// stand in groups) 45 are within 15 cm of the true head, the seed in two.
   float min_moved_m = 0.2F;
+  /// Two segments whose heads are this near to one another are one body's [m]: no two heads are.
+  float max_same_head_m = 0.15F;
 };
 
 /// Arms that growing did not reach (bodies/floating_arms.hpp). Of 141 such surfaces beside

@@ -152,12 +152,18 @@ struct OverlookedParams {
   /// Lowest log odds and score of the template (0 to 2.48) of a candidate that is asked about, how
   /// far from people who were found and from likelier ones it must be [m], and of how many a frame:
   /// each takes a look of the network.
-  float min_head_odds = -6.0F, min_template_score = 1.6F, min_distance_m = 0.42F,
+  float min_head_odds = -8.0F, min_template_score = 1.6F, min_distance_m = 0.42F,
         separation_m = 0.4F;
-  int max_asked = 4;
+  int max_asked = 8;
   /// Lowest log odds of a person, of the network of depths, and how much lower they may be where
   /// the head's place is a guess yet.
   float min_person_odds = 4.0F, guess_costs_odds = 3.0F;
+  /// Where the network sees the head so far from what was asked about [m], that may be a back: it
+  /// is asked once more from there.
+  float min_moved_m = 0.2F;
+  /// A head that was found so, and one of lower log odds than this, must be in sight (0 to 1): of
+  /// somebody of whom the image shows a leg alone it is not.
+  float min_unseen_head_odds = -6.0F, min_head_visibility = 0.35F;
   /// A head that the depths around it nearly tell (log odds) needs less, where the network marks it
   /// so near [m]. A man before a wall has -1.5 to 0, 3.0 to 4.0 and 0.05 m in six of eight pictures
   /// of a real depth camera; of the other candidates there none has over -2.

@@ -191,7 +191,8 @@ std::vector<HeadCandidate> Segmenter::find_overlooked_people(const Scene& scene,
                             labels,
                             0,
                             {params.min_person_odds},
-                            BodyLimits{params.min_likely_person_odds, params.max_likely_error_m}},
+                            BodyLimits{params.min_likely_person_odds, params.max_likely_error_m},
+                            true},
                            params_, depth_pose_);
   }
   if (auto merged = find_merged(scene.lattice, people, params); !merged.empty()) {
@@ -294,7 +295,7 @@ PosesInDepths Segmenter::put_bodies_right(const Scene& scene, Heads heads,
   if (heads == Heads::kTold || params_.growing == Growing::kPaper) return poses;
   const SplitBodyParams& params = params_.split_bodies;
   if (join_split_bodies(scene, poses, params, result.segments, labels)) poses = look();
-  if (put_seeds_to_heads(poses, params, result.segments)) poses = look();
+  if (put_seeds_to_heads(poses, params, result.segments, labels)) poses = look();
   return poses;
 }
 

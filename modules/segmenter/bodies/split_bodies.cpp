@@ -106,17 +106,25 @@ bool join_split_bodies(const Scene& scene, const PosesInDepths& poses,
 }
 
 bool put_seeds_to_heads(const PosesInDepths& poses, const SplitBodyParams& params,
-                        std::vector<Segment>& segments) {
+                        std::vector<Segment>& segments, std::vector<std::int16_t>& labels) {
   bool any = false;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     Segment& segment = segments[k];
     if (!poses[k] || !segment.valid() || !sees_head(*poses[k], params) ||
         head_error_m(*poses[k], segment) < params.min_moved_m)
       continue;
+    any = true;
+    const auto owner = std::find_if(segments.begin(), segments.end(), [&](const Segment& other) {
+      return &other != &segment && other.valid() &&
+             head_error_m(*poses[k], other) < params.max_same_head_m;
+    });
+    if (owner != segments.end()) {
+      give_to_same_person(k, static_cast<std::size_t>(owner - segments.begin()), segments, labels);
+      continue;
+    }
     segment.seed_m = surface_before(poses[k]->places_m[kHeadJoint]);
     // It is in sight now.
     if (segment.seed_kind == SeedKind::kBody) segment.seed_kind = SeedKind::kHeadShape;
-    any = true;
   }
   return any;
 }

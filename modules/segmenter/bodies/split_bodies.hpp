@@ -23,9 +23,10 @@ bool join_split_bodies(const Scene& scene, const PosesInDepths& poses,
                        const SplitBodyParams& params, std::vector<Segment>& segments,
                        std::vector<std::int16_t>& labels);
 
-/// Puts the seeds of people to the heads that the network sees elsewhere on their bodies. Returns
-/// whether there were any.
+/// Puts the seeds of people to the heads that the network sees elsewhere on their bodies; where
+/// another segment begins at that head, theirs is a part of it, too. Returns whether there were
+/// any.
 bool put_seeds_to_heads(const PosesInDepths& poses, const SplitBodyParams& params,
-                        std::vector<Segment>& segments);
+                        std::vector<Segment>& segments, std::vector<std::int16_t>& labels);
 
 }  // namespace limbcast::segmenter

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "modules/segmenter/faces_and_joints/depth_picture.hpp"
-#include "modules/segmenter/faces_and_joints/labelled_person.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -44,6 +43,49 @@ bool may_be_wrong(SegmentFilter filter) {
          filter == SegmentFilter::kSeedNotHead;
 }
 
+/// The head of one of those bodies, where it was asked about or where the network sees it; nothing
+/// where the body is no person's.
+std::optional<HeadCandidate> tell_head(const Scene& scene, const AskedHeads& asked, std::size_t k,
+                                       const Params& params, const DepthPose& network) {
+  const OverlookedParams& limits = params.overlooked;
+  const HeadCandidate& head = asked.heads[k];
+  const auto label = static_cast<std::int16_t>(asked.first_label + static_cast<int>(k));
+  const auto see = [&](const Eigen::Vector3f& head_m, float min_odds) {
+    return see_body(scene, {asked.labels, label, head_m}, params.depth_pose.picture, network,
+                    min_odds);
+  };
+  const bool is_likely = asked.limits_of_likely && head.odds >= limits.min_likely_head_odds;
+  const BodyLimits& lowest = is_likely ? *asked.limits_of_likely : asked.limits;
+  const float guess_odds =
+      asked.limits.min_person_odds - (asked.heads_move ? limits.guess_costs_odds : 0.0F);
+  const Eigen::Vector3f head_m = scene.lattice.frame.to_sensor(head.center_m);
+  const auto pose = see(head_m, std::min(guess_odds, lowest.min_person_odds));
+  if (!pose) return std::nullopt;
+  const auto is_seen = [&limits](const PoseInDepths& body) {
+    return body.visibilities[index(Joint::kHead)] >= limits.min_head_visibility;
+  };
+  const Eigen::Vector3f& seen_m = pose->places_m[index(Joint::kHead)];
+  const float error_m = (seen_m - head_m).norm();
+  if (asked.heads_move && error_m >= limits.min_moved_m) {
+    const auto again = see(seen_m, asked.limits.min_person_odds);
+    if (again && is_seen(*again)) {
+      const Eigen::Vector3f& again_m = again->places_m[index(Joint::kHead)];
+      if (auto moved = head_near(scene.lattice, scene.lattice.frame.to_level(again_m))) {
+        moved->kind = head.kind;
+        return moved;
+      }
+    }
+  }
+  if (asked.heads_move && head.odds < limits.min_unseen_head_odds && !is_seen(*pose))
+    return std::nullopt;
+  const auto meets = [&](const BodyLimits& wanted) {
+    return log_odds(pose->person_score) >= wanted.min_person_odds &&
+           error_m < wanted.max_head_error_m;
+  };
+  if (meets(asked.limits) || meets(lowest)) return head;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<HeadCandidate> find_overlooked(const Lattice& lattice, const FoundPeople& people,
@@ -76,29 +118,27 @@ std::vector<HeadCandidate> find_merged(const Lattice& lattice, const FoundPeople
   return apart(merged, params.separation_m);
 }
 
-std::vector<HeadCandidate> heads_of_people(const Scene& scene, AskedHeads asked,
+std::optional<PoseInDepths> see_body(const Scene& scene, const LabelledPerson& body,
+                                     const DepthPictureParams& picture, const DepthPose& network,
+                                     float min_person_odds) {
+  const auto drawn = draw_depths(scene, body, picture);
+  return drawn ? network.see_person(*drawn, min_person_odds) : std::nullopt;
+}
+
+std::vector<HeadCandidate> heads_of_people(const Scene& scene, const AskedHeads& asked,
                                            const Params& params, const DepthPose& network) {
-  std::vector<HeadCandidate>& heads = asked.heads;
-  tbb::parallel_for(std::size_t{0}, heads.size(), [&](std::size_t k) {
-    const auto label = static_cast<std::int16_t>(asked.first_label + static_cast<int>(k));
-    const LabelledPerson body{asked.labels, label,
-                              scene.lattice.frame.to_sensor(heads[k].center_m)};
-    const auto picture = draw_depths(scene, body, params.depth_pose.picture);
-    const bool is_likely =
-        asked.limits_of_likely && heads[k].odds >= params.overlooked.min_likely_head_odds;
-    const BodyLimits& lowest = is_likely ? *asked.limits_of_likely : asked.limits;
-    const auto pose = picture ? network.see_person(*picture, lowest.min_person_odds) : std::nullopt;
-    const auto meets = [&](const BodyLimits& limits) {
-      return log_odds(pose->person_score) >= limits.min_person_odds &&
-             (pose->places_m[index(Joint::kHead)] - body.head_m).norm() < limits.max_head_error_m;
-    };
-    heads[k].told_by_body = pose && (meets(asked.limits) || meets(lowest));
-  });
-  heads.erase(std::remove_if(heads.begin(), heads.end(),
-                             [](const HeadCandidate& head) { return !head.told_by_body; }),
-              heads.end());
-  for (HeadCandidate& head : heads) head.odds = params.overlooked.head_odds;
-  return std::move(asked.heads);
+  std::vector<std::optional<HeadCandidate>> told(asked.heads.size());
+  tbb::parallel_for(std::size_t{0}, told.size(),
+                    [&](std::size_t k) { told[k] = tell_head(scene, asked, k, params, network); });
+  std::vector<HeadCandidate> heads;
+  for (const std::optional<HeadCandidate>& head : told) {
+    if (head) heads.push_back(*head);
+  }
+  for (HeadCandidate& head : heads) {
+    head.told_by_body = true;
+    head.odds = params.overlooked.head_odds;
+  }
+  return heads;
 }
 
 }  // namespace limbcast::segmenter

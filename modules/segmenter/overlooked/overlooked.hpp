@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/segmenter/faces_and_joints/depth_pose.hpp"
+#include "modules/segmenter/faces_and_joints/labelled_person.hpp"
 #include "modules/segmenter/params.hpp"
 #include "modules/segmenter/people_search.hpp"
 #include "modules/segmenter/scene/lattice.hpp"
@@ -39,10 +40,18 @@ struct AskedHeads {
   BodyLimits limits;
   /// Other limits that suffice where the depths around a head nearly tell it.
   std::optional<BodyLimits> limits_of_likely = std::nullopt;
+  /// Where the network sees the head elsewhere it is asked once more from there.
+  bool heads_move = false;
 };
 
-/// Those whose whole bodies it takes for people.
-std::vector<HeadCandidate> heads_of_people(const Scene& scene, AskedHeads asked,
+/// Heads of those whose whole bodies it takes for people.
+std::vector<HeadCandidate> heads_of_people(const Scene& scene, const AskedHeads& asked,
                                            const Params& params, const DepthPose& network);
+
+/// What the network sees of a body, from its head on; nothing where the log odds of a person are
+/// lower than that.
+std::optional<PoseInDepths> see_body(const Scene& scene, const LabelledPerson& body,
+                                     const DepthPictureParams& picture, const DepthPose& network,
+                                     float min_person_odds);
 
 }  // namespace limbcast::segmenter

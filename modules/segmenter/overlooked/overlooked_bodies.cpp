@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "modules/segmenter/faces_and_joints/depth_picture.hpp"
 #include "modules/segmenter/faces_and_joints/labelled_person.hpp"
 #include "modules/segmenter/overlooked/head_view.hpp"
+#include "modules/segmenter/overlooked/overlooked.hpp"
 
 namespace limbcast::segmenter {
 namespace {
@@ -37,9 +37,8 @@ std::vector<HeadlessSurface> likeliest_bodies(const Scene& scene, const Surfaces
 std::optional<Eigen::Vector3f> see_head(const Scene& scene, LabelledPerson body,
                                         const BodyJudges& judges) {
   const OverlookedParams& params = judges.params.overlooked;
-  const auto see = [&](float min_odds) -> std::optional<PoseInDepths> {
-    const auto picture = draw_depths(scene, body, judges.params.depth_pose.picture);
-    return picture ? judges.network.see_person(*picture, min_odds) : std::nullopt;
+  const auto see = [&](float min_odds) {
+    return see_body(scene, body, judges.params.depth_pose.picture, judges.network, min_odds);
   };
   const auto first = see(params.min_person_odds - params.guess_costs_odds);
   if (!first) return std::nullopt;

@@ -75,7 +75,7 @@ class SplitBody : public ::testing::Test {
     return join_split_bodies(look_at(cloud_, params_), poses_, params_.split_bodies, segments_,
                              labels_);
   }
-  bool puts_seeds() { return put_seeds_to_heads(poses_, params_.split_bodies, segments_); }
+  bool puts_seeds() { return put_seeds_to_heads(poses_, params_.split_bodies, segments_, labels_); }
 
   Params params_;
   Cloud cloud_;
@@ -147,12 +147,26 @@ TEST_F(SplitBody, IsLeftAsItIsWhereTheNetworkIsSwitchedOff) {
 }
 
 TEST_F(SplitBody, HasItsSeedPutToTheHeadThatIsSeenElsewhere) {
+  segments_[kUpper].rejected_by = SegmentFilter::kNotHeadShaped;
   segments_[kLower].seed_kind = SeedKind::kBody;
   see(kLower, Joint::kHead, behind_surface(at(kHeadPx)), 0.9F);
   EXPECT_TRUE(puts_seeds());
   EXPECT_LT((segments_[kLower].seed_m - at(kHeadPx)).norm(), 1e-4F);
   EXPECT_EQ(segments_[kLower].seed_kind, SeedKind::kHeadShape) << "it is in sight";
   EXPECT_FALSE(puts_seeds()) << "once more";
+}
+
+TEST_F(SplitBody, IsOneWhereTheOthersHeadIsSeenWhereItBegan) {
+  see(kLower, Joint::kHead, behind_surface(at(kHeadPx)), 0.9F);
+  EXPECT_TRUE(puts_seeds());
+  EXPECT_EQ(segments_[kLower].rejected_by, SegmentFilter::kSamePerson);
+  EXPECT_EQ(std::count(labels_.begin(), labels_.end(), kUpper), kUpperPx.area() + kLowerPx.area());
+}
+
+TEST_F(SplitBody, IsNoneWhereTheOthersHeadIsBesideIt) {
+  see(kLower, Joint::kHead, behind_surface(at(kHeadPx)) + Eigen::Vector3f(0.2F, 0.0F, 0.0F), 0.9F);
+  EXPECT_TRUE(puts_seeds());
+  EXPECT_TRUE(segments_[kLower].valid());
 }
 
 TEST_F(SplitBody, KeepsItsSeedWhereTheHeadIsSeenHardlyOrNear) {
