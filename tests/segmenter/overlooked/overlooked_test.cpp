@@ -142,6 +142,15 @@ class HeadsThatLookLikeNone : public ::testing::TestWithParam<std::uint64_t> {
     params.hidden_heads.min_body_odds = 100.0F;
     return params;
   }
+  /// Somebody so near that the image ends below the head.
+  static simulate::SimulatorParams near_person_without_head() {
+    auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+    scene.scenario.head_above_share = 1.0;
+    scene.scenario.min_distance_m = 0.9;
+    scene.scenario.max_distance_m = 2.0;
+    scene.scenario.min_camera_height_m = scene.scenario.max_camera_height_m = 0.8;
+    return scene;
+  }
   static std::size_t count_people(const simulate::SimulatorParams& scene, std::uint64_t seed,
                                   const Params& params) {
     const Segments found =
@@ -183,11 +192,7 @@ TEST_P(HeadsThatLookLikeNone, AreToldByASurfaceThatNobodyHas) {
 }
 
 TEST_P(HeadsThatLookLikeNone, AreToldByTheBodyWhereTheyAreAboveTheImage) {
-  auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
-  scene.scenario.head_above_share = 1.0;
-  scene.scenario.min_distance_m = 0.9;
-  scene.scenario.max_distance_m = 2.0;
-  scene.scenario.min_camera_height_m = scene.scenario.max_camera_height_m = 0.8;
+  const auto scene = near_person_without_head();
   Params no_heads_asked = strict();
   no_heads_asked.overlooked.max_asked = 0;
   EXPECT_EQ(count_people(scene, GetParam(), no_heads_asked), 0U);
@@ -201,6 +206,17 @@ TEST_P(HeadsThatLookLikeNone, AreNotMadeOfFurniture) {
   Params all_asked = strict();
   all_asked.overlooked_bodies = kOverlookedBodies;
   EXPECT_EQ(count_people(room, GetParam(), all_asked), 0U);
+}
+
+class HeadsOutOfSight : public HeadsThatLookLikeNone {};
+
+TEST_P(HeadsOutOfSight, AreNotToldByCandidatesThatNothingElseSpeaksFor) {
+  const auto scene = near_person_without_head();
+  Params unlikely = strict();
+  unlikely.overlooked.min_unseen_head_odds = 100.0F;
+  EXPECT_EQ(count_people(scene, GetParam(), unlikely), 0U);
+  unlikely.overlooked.min_head_visibility = 0.0F;
+  EXPECT_EQ(count_people(scene, GetParam(), unlikely), 1U);
 }
 
 /// How many of the true people in sight have a segment that began at their heads.
@@ -261,6 +277,7 @@ TEST(PeopleWhoBend, AreFoundByTheirHeadsWhereTheirBacksAreAskedAbout) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Simulated, PeopleWhoTouch, ::testing::Values(13, 62));
+INSTANTIATE_TEST_SUITE_P(Simulated, HeadsOutOfSight, ::testing::Values(2, 10, 23));
 INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
 
 }  // namespace
