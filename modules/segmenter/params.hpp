@@ -162,8 +162,8 @@ struct OverlookedParams {
   /// is asked once more from there.
   float min_moved_m = 0.2F;
   /// A head that was found so, and one of lower log odds than this, must be in sight (0 to 1): of
-  /// somebody of whom the image shows a leg alone it is not.
-  float min_unseen_head_odds = -6.0F, min_head_visibility = 0.35F;
+  /// somebody of whom the image shows a leg alone it is not (0.2), nor of a bush (0.37).
+  float min_unseen_head_odds = -6.0F, min_head_visibility = 0.5F;
   /// A head that the depths around it nearly tell (log odds) needs less, where the network marks it
   /// so near [m]. A man before a wall has -1.5 to 0, 3.0 to 4.0 and 0.05 m in six of eight pictures
   /// of a real depth camera; of the other candidates there none has over -2.
