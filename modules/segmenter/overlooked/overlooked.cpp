@@ -132,11 +132,10 @@ std::vector<HeadCandidate> heads_of_people(const Scene& scene, const AskedHeads&
                     [&](std::size_t k) { told[k] = tell_head(scene, asked, k, params, network); });
   std::vector<HeadCandidate> heads;
   for (const std::optional<HeadCandidate>& head : told) {
-    if (head) heads.push_back(*head);
-  }
-  for (HeadCandidate& head : heads) {
-    head.told_by_body = true;
-    head.odds = params.overlooked.head_odds;
+    if (!head) continue;
+    heads.push_back(*head);
+    heads.back().told_by_body = true;
+    heads.back().odds = params.overlooked.head_odds;
   }
   return heads;
 }

@@ -251,6 +251,15 @@ TEST_P(PeopleWhoTouch, AreFoundWhereOneWasTakenForAPartOfTheOther) {
   EXPECT_EQ(count_found(cloud, frame, {}), count_found(cloud, frame, nobody_asked) + 1);
 }
 
+class PeopleWhoTouchInFullSight : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(PeopleWhoTouchInFullSight, AreAllFound) {
+  auto scene = person_in_sight(simulate::SensorKind::kDepth, "hang");
+  scene.scenario.set = simulate::SetKind::kMulti;
+  const simulate::SimulatedFrame frame = simulate::simulate_frame(scene, GetParam(), 0);
+  EXPECT_EQ(count_found(depth_cloud(scene, frame), frame, {}), 5);
+}
+
 /// How many who bow, of eight seeds from this one on, have a segment that began at their heads.
 std::ptrdiff_t count_found_who_bow(std::uint64_t first_seed, const Params& params) {
   const auto scene = person_in_sight(simulate::SensorKind::kDepth, "bow");
@@ -277,6 +286,7 @@ TEST(PeopleWhoBend, AreFoundByTheirHeadsWhereTheirBacksAreAskedAbout) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Simulated, PeopleWhoTouch, ::testing::Values(13, 62));
+INSTANTIATE_TEST_SUITE_P(Simulated, PeopleWhoTouchInFullSight, ::testing::Values(13, 41));
 INSTANTIATE_TEST_SUITE_P(Simulated, HeadsOutOfSight, ::testing::Values(2, 10, 23));
 INSTANTIATE_TEST_SUITE_P(Simulated, HeadsThatLookLikeNone, ::testing::Values(1, 3, 6));
 
